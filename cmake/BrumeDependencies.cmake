@@ -1,0 +1,23 @@
+# Every library that Brume stands on. What a test alone needs is found in BrumeTesting.
+
+find_package(Threads REQUIRED)
+find_package(glm REQUIRED)
+find_package(TBB REQUIRED COMPONENTS tbb)
+find_package(hwy REQUIRED)
+
+find_package(MPI QUIET COMPONENTS C) # VTK's Debian package names MPI::MPI_C without finding it
+find_package(VTK 9.1 REQUIRED COMPONENTS
+  CommonCore CommonDataModel CommonExecutionModel CommonMath CommonMisc CommonTransforms
+  CommonSystem IOImage IOXML IOLegacy ImagingCore
+  RenderingCore RenderingVolume RenderingOpenGL2 RenderingVolumeOpenGL2 RenderingFreeType
+  InteractionStyle FiltersSources)
+
+find_package(OpenImageIO 2.4 REQUIRED)
+# Debian's OpenImageIO target names an include folder of OpenCV that its package does not bring.
+get_target_property(_oiio_includes OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
+list(FILTER _oiio_includes EXCLUDE REGEX "opencv")
+set_target_properties(OpenImageIO::OpenImageIO PROPERTIES
+  INTERFACE_INCLUDE_DIRECTORIES "${_oiio_includes}")
+
+find_package(CLI11 REQUIRED)
+find_package(nlohmann_json 3.11 REQUIRED)

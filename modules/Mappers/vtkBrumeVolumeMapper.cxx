@@ -1,0 +1,2 @@
+#include "vtkBrumeVolumeMapper.h"
+#include "Transport/film.h"
