@@ -1,2 +1,1 @@
 #include "vtkBrumeVolumeMapper.h"
-#include "Transport/film.h"

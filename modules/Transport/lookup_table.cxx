@@ -1,0 +1,102 @@
+#include "Transport/lookup_table.h"
+
+#include "Transport/optics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace brume
+{
+
+TablePosition table_position(double value, double lower, double upper, std::size_t count)
+{
+  const double last = static_cast<double>(count - 1);
+  double position = (value - lower) / (upper - lower) * last;
+  position = position > 0.0 ? std::min(position, last) : 0.0; // a NaN goes to the first node
+  const std::size_t index = std::min(static_cast<std::size_t>(position), count - 2);
+  return { index, position - static_cast<double>(index) };
+}
+
+LookupTable make_lookup_table(const Classification& c, double step)
+{
+  if (c.opacity.size() < 2 || (!c.rgb.empty() && c.rgb.size() != 3 * c.opacity.size()))
+  {
+    throw std::invalid_argument("a transfer function needs at least 2 nodes, and as many colours");
+  }
+  if (!(c.lower < c.upper))
+  {
+    throw std::invalid_argument("a transfer function's range must not be empty");
+  }
+  if (!(c.unit_distance > 0.0))
+  {
+    throw std::invalid_argument("the opacity unit distance must be positive");
+  }
+  LookupTable table;
+  const int count = LookupTable::intervals + 1;
+  table.lower = static_cast<float>(c.lower);
+  table.scale = static_cast<float>(LookupTable::intervals / (c.upper - c.lower));
+  table.nodes.resize(count);
+  table.nodes_before.assign(count + 1, 0);
+  bool found_empty = false;
+  for (int i = 0; i < count; ++i)
+  {
+    const double value = c.lower + (c.upper - c.lower) * i / LookupTable::intervals;
+    const TablePosition at = table_position(value, c.lower, c.upper, c.opacity.size());
+    LookupNode& node = table.nodes[i];
+    const double opacity = interpolate(c.opacity.data(), at);
+    node.optical_depth =
+      static_cast<float>(extinction_from_opacity(opacity, c.unit_distance) * step);
+    float* colour = &node.red;
+    for (int channel = 0; channel < 3; ++channel)
+    {
+      colour[channel] =
+        c.rgb.empty() ? 0.0f : static_cast<float>(interpolate(c.rgb.data() + channel, at, 3));
+      table.brightest = std::max(table.brightest, colour[channel]);
+    }
+    table.nodes_before[i + 1] = table.nodes_before[i] + (node.optical_depth > 0.0f);
+    if (!found_empty && node.optical_depth == 0.0f)
+    {
+      table.empty_value = static_cast<float>(value);
+      found_empty = true;
+    }
+  }
+  if (!found_empty)
+  {
+    table.empty_value = table.lower;
+  }
+  if (c.rgb.empty())
+  {
+    table.brightest = 1.0f;
+  }
+  if (!c.gradient_opacity.empty())
+  {
+    if (c.gradient_opacity.size() < 2 || !(c.gradient_upper > 0.0))
+    {
+      throw std::invalid_argument("a gradient opacity needs 2 nodes and a positive range");
+    }
+    table.gradient_factor.resize(count);
+    for (int i = 0; i < count; ++i)
+    {
+      const double magnitude = c.gradient_upper * i / LookupTable::intervals;
+      const double factor = interpolate(c.gradient_opacity.data(),
+        table_position(magnitude, 0.0, c.gradient_upper, c.gradient_opacity.size()));
+      table.gradient_factor[i] = static_cast<float>(std::clamp(factor, 0.0, 1.0));
+    }
+    table.gradient_table_scale = static_cast<float>(LookupTable::intervals / c.gradient_upper);
+  }
+  return table;
+}
+
+bool LookupTable::can_show(float lowest, float highest) const
+{
+  const auto node_at = [this](float value, bool up)
+  {
+    float position = (value - lower) * scale;
+    position = std::min(std::max(position, 0.0f), static_cast<float>(intervals));
+    return static_cast<int>(up ? std::ceil(position) : std::floor(position));
+  };
+  return nodes_before[node_at(highest, true) + 1] > nodes_before[node_at(lowest, false)];
+}
+
+}

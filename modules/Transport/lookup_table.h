@@ -1,0 +1,71 @@
+// Transfer functions as the kernels read them: one table of colour and optical depth.
+#pragma once
+
+#include "Transport/scene.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace brume
+{
+
+/// A node: source colour and the optical depth of one whole step of the march.
+struct LookupNode
+{
+  float red;
+  float green;
+  float blue;
+  float optical_depth;
+};
+
+/// The classification sampled at even distances, for one step length. Between nodes the kernels
+/// interpolate.
+struct LookupTable
+{
+  /// Intervals between the nodes. The table is one node longer, so that the last interval has two
+  /// ends like any other.
+  static constexpr int intervals = 4096;
+
+  std::vector<LookupNode> nodes;
+  /// Position in the table = (value − lower) * scale, clamped to [0, intervals].
+  float lower = 0.0f;
+  float scale = 1.0f;
+  /// The largest colour component; a bound of the radiance that matter of any kind here can send.
+  float brightest = 0.0f;
+  /// The value that stands for empty in place of a non-finite voxel: one of no optical depth where
+  /// there is one.
+  float empty_value = 0.0f;
+
+  /// Factor on the optical depth by gradient magnitude, same form; empty where there is none.
+  std::vector<float> gradient_factor;
+  float gradient_table_scale = 1.0f;
+
+  /// Whether any value in [lowest, highest] has an optical depth. Constant time.
+  bool can_show(float lowest, float highest) const;
+
+  /// nodes_before[i] = how many of the nodes before i have an optical depth.
+  std::vector<int> nodes_before;
+};
+
+/// Builds the table for steps of the length `step`, in the data's units. Throws
+/// std::invalid_argument for tables of fewer than 2 nodes, lower ≥ upper, or a unit distance that
+/// is not positive.
+LookupTable make_lookup_table(const Classification& classification, double step);
+
+/// Position of `value` among `count` nodes over [lower, upper]: the interval and the fraction in it.
+struct TablePosition
+{
+  std::size_t index;
+  double fraction;
+};
+TablePosition table_position(double value, double lower, double upper, std::size_t count);
+
+/// The piecewise linear function through `count` nodes, `stride` apart, at a position.
+inline double interpolate(const double* nodes, TablePosition at, std::size_t stride = 1)
+{
+  const double a = nodes[at.index * stride];
+  const double b = nodes[(at.index + 1) * stride];
+  return a + at.fraction * (b - a);
+}
+
+}

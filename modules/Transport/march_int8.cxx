@@ -1,0 +1,33 @@
+// The march over grids of std::int8_t, for every SIMD target.
+#include "Transport/march_task.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "Transport/march_int8.cxx"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "Transport/march-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace brume
+{
+namespace HWY_NAMESPACE
+{
+MarchCount march_int8_target(const MarchTask& task)
+{
+  return march_grid<std::int8_t, 1>(task);
+}
+}
+}
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace brume
+{
+HWY_EXPORT(march_int8_target);
+MarchCount march_int8(const MarchTask& task)
+{
+  return HWY_DYNAMIC_DISPATCH(march_int8_target)(task);
+}
+}
+#endif

@@ -1,0 +1,80 @@
+// The ray marcher: fixed steps, packets of rays, tiles shared by threads.
+#pragma once
+
+#include "Transport/film.h"
+#include "Transport/scene.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace brume
+{
+
+/// How a picture is to be made.
+struct MarchSettings
+{
+  /// Length of a step, in the data's units; > 0. The last step of a ray is cut at the grid's end.
+  /// Rays of more than 2²² steps get longer ones.
+  double step = 1.0;
+  /// The largest error of a pixel, as a fraction of white, that may be made by ending rays early;
+  /// ≥ 0. A ray is left when all that is behind could not change its pixel by more.
+  double leave_error = 0.001;
+  /// Worker threads; 0 for as many as the machine has processors.
+  int threads = 0;
+};
+
+/// What making a picture took.
+struct MarchStatistics
+{
+  double seconds_prepare = 0.0; ///< scanning voxels, building tables; 0 when all was kept
+  double seconds = 0.0;         ///< the render alone
+  std::uint64_t samples = 0;    ///< places at which the grid was read
+  std::uint64_t rays = 0;       ///< rays that met the grid
+  int threads = 0;
+  std::string simd;             ///< the instruction set that was used: SSE4, AVX2, AVX3…
+  std::size_t non_finite_voxels = 0;
+  std::size_t bricks = 0;
+  std::size_t visible_bricks = 0;
+  bool completed = false;       ///< false when the render was aborted; the film is then partial
+};
+
+/// Called from the thread that called render(), now and then, with the fraction done in [0, 1].
+/// Returns false to abort.
+using Progress = std::function<bool(double)>;
+
+/// Draws scenes, and keeps between pictures what does not change: the bricks as long as
+/// Scene::data_revision stays, the tables as long as medium_revision and the step stay.
+/// Not to be used from two threads at once; two marchers may be.
+class Marcher
+{
+public:
+  Marcher();
+  ~Marcher();
+  Marcher(const Marcher&) = delete;
+  Marcher& operator=(const Marcher&) = delete;
+
+  /// Fills the film, whose size is the picture's. Throws std::invalid_argument for a scene or
+  /// settings that cannot be drawn (see Scene, MarchSettings). Same scene, same picture, bit for
+  /// bit, whatever the number of threads.
+  MarchStatistics render(const Scene& scene, const MarchSettings& settings, Film& film,
+    const Progress& progress = {});
+
+  /// Lowest and highest finite value of the scene's grid, scanning it if need be;
+  /// lower > upper where there is none.
+  void value_range(const Scene& scene, double range[2]);
+
+private:
+  struct Cache;
+  std::unique_ptr<Cache> Kept;
+};
+
+/// Names of the SIMD targets that this machine can run, best first.
+std::string simd_targets();
+/// Uses only the target of this name (as simd_targets() has it) from now on; "" for the best again.
+/// Returns false and changes nothing for a name that is not there. For tests and measurements.
+bool force_simd_target(const std::string& name);
+
+}

@@ -1,0 +1,166 @@
+// Packets of numbers: the vocabulary of the kernels, for the SIMD target at hand.
+// Included once for each target (Highway's foreach_target).
+#if defined(BRUME_PACKET_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BRUME_PACKET_INL_H
+#undef BRUME_PACKET_INL_H
+#else
+#define BRUME_PACKET_INL_H
+#endif
+
+#include <hwy/contrib/math/math-inl.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace brume
+{
+namespace HWY_NAMESPACE
+{
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using FloatTag = hn::ScalableTag<float>;
+using IntTag = hn::ScalableTag<std::int32_t>;
+using Real = hn::Vec<FloatTag>;
+using Int = hn::Vec<IntTag>;
+using Mask = hn::Mask<FloatTag>;
+
+constexpr FloatTag float_tag{};
+constexpr IntTag int_tag{};
+constexpr int lane_count = HWY_LANES(float);
+
+HWY_INLINE Real real(float value)
+{
+  return hn::Set(float_tag, value);
+}
+HWY_INLINE Int integer(std::int32_t value)
+{
+  return hn::Set(int_tag, value);
+}
+HWY_INLINE Real max(Real a, Real b)
+{
+  return hn::Max(a, b);
+}
+HWY_INLINE Real clamp(Real value, Real lower, Real upper)
+{
+  return hn::Min(hn::Max(value, lower), upper);
+}
+HWY_INLINE Real select(Mask mask, Real yes, Real no)
+{
+  return hn::IfThenElse(mask, yes, no);
+}
+HWY_INLINE Real lerp(Real a, Real b, Real fraction)
+{
+  return hn::MulAdd(fraction, b - a, a);
+}
+/// 1/√x, and 0 where x is not positive.
+HWY_INLINE Real rsqrt_or_zero(Real x)
+{
+  const Mask positive = x > hn::Zero(float_tag);
+  return hn::IfThenElseZero(
+    positive, real(1.0f) / hn::Sqrt(hn::IfThenElse(positive, x, real(1.0f))));
+}
+/// x^exponent for x > 0.
+HWY_INLINE Real pow(Real x, float exponent)
+{
+  return hn::Exp(float_tag, real(exponent) * hn::Log(float_tag, x));
+}
+/// 1 − exp(−x) for x ≥ 0, without cancellation (see opacity_from_optical_depth in optics.h).
+HWY_INLINE Real opacity_from_optical_depth(Real x)
+{
+  // Below ½ the series x (1 − x/2! + x²/3! − …), cut where the next term is under 2⁻²⁴ of the sum.
+  const Mask small = x < real(0.5f);
+  Real sum = real(-1.0f / 40320.0f);
+  sum = hn::MulAdd(sum, x, real(1.0f / 5040.0f));
+  sum = hn::MulAdd(sum, x, real(-1.0f / 720.0f));
+  sum = hn::MulAdd(sum, x, real(1.0f / 120.0f));
+  sum = hn::MulAdd(sum, x, real(-1.0f / 24.0f));
+  sum = hn::MulAdd(sum, x, real(1.0f / 6.0f));
+  sum = hn::MulAdd(sum, x, real(-0.5f));
+  sum = hn::MulAdd(sum, x, real(1.0f));
+  const Real series = sum * x;
+  if (HWY_LIKELY(hn::AllTrue(float_tag, small)))
+  {
+    return series;
+  }
+  return hn::IfThenElse(small, series, real(1.0f) - hn::Exp(float_tag, hn::Neg(x)));
+}
+
+template <class R>
+struct Vec3
+{
+  R x, y, z;
+};
+template <class R>
+HWY_INLINE Vec3<R> operator+(const Vec3<R>& a, const Vec3<R>& b)
+{
+  return { a.x + b.x, a.y + b.y, a.z + b.z };
+}
+template <class R>
+HWY_INLINE Vec3<R> operator-(const Vec3<R>& a, const Vec3<R>& b)
+{
+  return { a.x - b.x, a.y - b.y, a.z - b.z };
+}
+template <class R>
+HWY_INLINE Vec3<R> operator*(const Vec3<R>& a, const Vec3<R>& b)
+{
+  return { a.x * b.x, a.y * b.y, a.z * b.z };
+}
+template <class R>
+HWY_INLINE Vec3<R> operator*(const Vec3<R>& a, R s)
+{
+  return { a.x * s, a.y * s, a.z * s };
+}
+template <class R>
+HWY_INLINE Vec3<R> operator-(const Vec3<R>& a)
+{
+  return { hn::Neg(a.x), hn::Neg(a.y), hn::Neg(a.z) };
+}
+template <class R>
+HWY_INLINE R dot(const Vec3<R>& a, const Vec3<R>& b)
+{
+  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, a.z * b.z));
+}
+template <class R>
+HWY_INLINE R broadcast(float value)
+{
+  return real(value);
+}
+template <class R>
+HWY_INLINE Vec3<R> broadcast3(const float* v)
+{
+  return { real(v[0]), real(v[1]), real(v[2]) };
+}
+/// The 3 × 3 part, row-major with `stride` columns, times v.
+HWY_INLINE Vec3<Real> multiply(const float* m, int stride, const Vec3<Real>& v)
+{
+  return { dot(broadcast3<Real>(m), v), dot(broadcast3<Real>(m + stride), v),
+    dot(broadcast3<Real>(m + 2 * stride), v) };
+}
+
+/// A sum that keeps the digits a plain one would lose (Kahan, Further remarks on reducing
+/// truncation errors, 1965). value() − lost() is right to about one unit in the last place.
+struct Sum
+{
+  Real total;
+  Real lost;
+
+  // Constructors are written out: implicit ones would not be compiled for the SIMD target.
+  HWY_INLINE Sum()
+    : total(hn::Zero(float_tag))
+    , lost(hn::Zero(float_tag))
+  {
+  }
+  HWY_INLINE void add(Real term)
+  {
+    const Real corrected = term - lost;
+    const Real next = total + corrected;
+    lost = (next - total) - corrected;
+    total = next;
+  }
+};
+
+}
+}
+HWY_AFTER_NAMESPACE();
+
+#endif

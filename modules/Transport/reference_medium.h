@@ -1,0 +1,214 @@
+// Optical properties of a scene at a place, in double precision. Internal to Transport.
+#pragma once
+
+#include "Transport/lookup_table.h"
+#include "Transport/optics.h"
+#include "Transport/shading.h"
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace brume
+{
+
+/// Extinction and source at a place.
+struct Optical
+{
+  double extinction = 0.0; ///< per unit of the data's length
+  glm::dvec3 source{ 0.0 };
+};
+
+template <class T>
+class ReferenceMedium
+{
+public:
+  explicit ReferenceMedium(const Scene& scene)
+    : TheScene(scene)
+    , Shade(prepare_shading(scene))
+    , Voxels(static_cast<const T*>(scene.grid.voxels))
+    , NeedsGradient(scene.meaning == ValueMeaning::Classified &&
+        (scene.shading.enabled || !scene.classification.gradient_opacity.empty()))
+  {
+    if (scene.meaning == ValueMeaning::Classified)
+    {
+      const Classification& c = scene.classification;
+      // What a non-finite voxel stands for is settled in one place, with the marcher's table.
+      this->EmptyValue = make_lookup_table(c, 1.0).empty_value;
+      for (double opacity : c.opacity)
+      {
+        this->Extinction.push_back(extinction_from_opacity(opacity, c.unit_distance));
+      }
+    }
+    const glm::dmat4 world_from_index = scene.world_from_data * scene.data_from_index;
+    this->WorldFromIndex = world_from_index;
+    this->WorldFromGradient = glm::transpose(glm::inverse(glm::dmat3(world_from_index)));
+  }
+
+  /// `along` is the ray's direction in index space.
+  Optical at(const glm::dvec3& place, const glm::dvec3& along) const
+  {
+    Optical result;
+    const Grid& grid = this->TheScene.grid;
+    glm::dvec3 p;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      p[axis] = std::clamp(place[axis], 0.0, double(grid.dims[axis] - 1));
+      if (!grid.linear)
+      {
+        p[axis] = std::floor(p[axis] + 0.5);
+      }
+    }
+    const double value = this->interpolated(p, grid.components - 1);
+    if (this->TheScene.meaning == ValueMeaning::Density)
+    {
+      result.extinction = this->TheScene.density.extinction * std::max(value, 0.0);
+      return result;
+    }
+    const Classification& c = this->TheScene.classification;
+    const TablePosition position = table_position(value, c.lower, c.upper, c.opacity.size());
+    result.extinction = interpolate(this->Extinction.data(), position);
+    if (result.extinction <= 0.0)
+    {
+      return result;
+    }
+    for (int channel = 0; channel < 3; ++channel)
+    {
+      result.source[channel] = grid.components == 4
+        ? this->interpolated(p, channel) / 255.0
+        : interpolate(c.rgb.data() + channel, position, 3);
+    }
+    if (this->NeedsGradient)
+    {
+      this->apply_gradient(p, place, along, result);
+    }
+    return result;
+  }
+
+private:
+  double voxel(int i, int j, int k, int component) const
+  {
+    const Grid& grid = this->TheScene.grid;
+    const std::size_t index =
+      ((static_cast<std::size_t>(k) * grid.dims[1] + j) * grid.dims[0] + i) * grid.components +
+      component;
+    const double value = static_cast<double>(this->Voxels[index]);
+    return std::isfinite(value) ? value : this->EmptyValue;
+  }
+
+  /// The voxels that interpolation and its gradient read along one axis, −1 to 2 around a place.
+  struct Taps
+  {
+    int index[4];
+    double value[4];      ///< weights of the linear interpolation
+    double difference[4]; ///< weights of the interpolated central difference
+  };
+
+  Taps taps(double p, int axis) const
+  {
+    Taps t;
+    const int last = this->TheScene.grid.dims[axis] - 1;
+    const int low = std::min(static_cast<int>(p), last);
+    const double f = p - low;
+    for (int i = 0; i < 4; ++i)
+    {
+      t.index[i] = std::clamp(low + i - 1, 0, last);
+    }
+    const double value[4] = { 0.0, 1.0 - f, f, 0.0 };
+    const double difference[4] = { 0.5 * (f - 1.0), -0.5 * f, 0.5 * (1.0 - f), 0.5 * f };
+    std::copy(value, value + 4, t.value);
+    std::copy(difference, difference + 4, t.difference);
+    return t;
+  }
+
+  /// Trilinear at a place inside the grid; whole coordinates give the voxel itself.
+  double interpolated(const glm::dvec3& p, int component) const
+  {
+    const Taps x = this->taps(p.x, 0);
+    const Taps y = this->taps(p.y, 1);
+    const Taps z = this->taps(p.z, 2);
+    double sum = 0.0;
+    for (int k = 1; k < 3; ++k)
+    {
+      for (int j = 1; j < 3; ++j)
+      {
+        sum += z.value[k] * y.value[j] *
+          (x.value[1] * this->voxel(x.index[1], y.index[j], z.index[k], component) +
+            x.value[2] * this->voxel(x.index[2], y.index[j], z.index[k], component));
+      }
+    }
+    return sum;
+  }
+
+  /// Voxels' central differences, one-sided by half at the grid's ends, then interpolated.
+  glm::dvec3 gradient(const glm::dvec3& p) const
+  {
+    const int component = this->TheScene.grid.components - 1;
+    const Taps x = this->taps(p.x, 0);
+    const Taps y = this->taps(p.y, 1);
+    const Taps z = this->taps(p.z, 2);
+    glm::dvec3 sum(0.0);
+    for (int k = 0; k < 4; ++k)
+    {
+      for (int j = 0; j < 4; ++j)
+      {
+        const bool outer_k = k == 0 || k == 3;
+        const bool outer_j = j == 0 || j == 3;
+        if (outer_k && outer_j)
+        {
+          continue;
+        }
+        for (int i = outer_j || outer_k ? 1 : 0; i < (outer_j || outer_k ? 3 : 4); ++i)
+        {
+          const double v = this->voxel(x.index[i], y.index[j], z.index[k], component);
+          sum.x += x.difference[i] * y.value[j] * z.value[k] * v;
+          sum.y += x.value[i] * y.difference[j] * z.value[k] * v;
+          sum.z += x.value[i] * y.value[j] * z.difference[k] * v;
+        }
+      }
+    }
+    return sum;
+  }
+
+  void apply_gradient(const glm::dvec3& p, const glm::dvec3& place, const glm::dvec3& along,
+    Optical& result) const
+  {
+    const Classification& c = this->TheScene.classification;
+    const glm::dvec3 slope = this->gradient(p);
+    if (!c.gradient_opacity.empty())
+    {
+      const double magnitude = glm::length(slope / c.gradient_scale);
+      const TablePosition position =
+        table_position(magnitude, 0.0, c.gradient_upper, c.gradient_opacity.size());
+      result.extinction *=
+        std::clamp(interpolate(c.gradient_opacity.data(), position), 0.0, 1.0);
+    }
+    if (this->TheScene.shading.enabled)
+    {
+      using scalar::Vec3;
+      const glm::dvec3 normal = this->WorldFromGradient * slope;
+      const glm::dvec3 view = -glm::normalize(glm::dmat3(this->WorldFromIndex) * along);
+      const glm::dvec3 world = glm::dvec3(this->WorldFromIndex * glm::dvec4(place, 1.0));
+      const Vec3<double> shaded = scalar::shade<double>(this->Shade,
+        Vec3<double>{ normal.x, normal.y, normal.z }, Vec3<double>{ view.x, view.y, view.z },
+        Vec3<double>{ world.x, world.y, world.z },
+        Vec3<double>{ result.source.x, result.source.y, result.source.z });
+      result.source = { shaded.x, shaded.y, shaded.z };
+    }
+  }
+
+  const Scene& TheScene;
+  ShadeModel Shade;
+  const T* Voxels;
+  bool NeedsGradient;
+  double EmptyValue = 0.0;
+  std::vector<double> Extinction; ///< at the nodes of the opacity
+  glm::dmat4 WorldFromIndex{ 1.0 };
+  glm::dmat3 WorldFromGradient{ 1.0 };
+};
+
+}

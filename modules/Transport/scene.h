@@ -1,0 +1,125 @@
+// What is to be drawn, as plain data: the grid and its place, what its values mean, lights, camera.
+// Conventions and units: docs/dev/units.md.
+#pragma once
+
+#include "Transport/grid.h"
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace brume
+{
+
+/// Values as a density of matter: the extinction coefficient is `extinction * value`.
+/// Negative and non-finite values count as 0. The matter absorbs and does not emit.
+struct Density
+{
+  double extinction = 1.0; ///< per unit of length and of density; ≥ 0
+};
+
+/// Values classified by transfer functions, as a vtkVolumeProperty does.
+///
+/// The functions are given as tables over [lower, upper], piecewise linear between nodes at even
+/// distances; values outside take the end's entry. Fine tables (65537 nodes) make the reference's
+/// truth; the marcher makes its own from them.
+struct Classification
+{
+  double lower = 0.0;
+  double upper = 1.0;
+  /// Opacity in [0, 1] of a stretch of `unit_distance`; σt = −ln(1 − opacity) / unit_distance.
+  std::vector<double> opacity;
+  /// Source colour, R, G, B a node, linear. Empty for grids of 4 components, which carry theirs.
+  std::vector<double> rgb;
+  /// The length that `opacity` speaks of, in the units of the data's own coordinates; > 0.
+  double unit_distance = 1.0;
+
+  /// A factor on the extinction by the magnitude of the gradient, at even distances over
+  /// [0, gradient_upper], the last entry beyond. Empty: no such factor.
+  std::vector<double> gradient_opacity;
+  double gradient_upper = 1.0;
+  /// What one voxel of central difference is divided by, for each axis: spacing / mean spacing
+  /// gives VTK's gradient magnitude, in values per mean voxel.
+  glm::dvec3 gradient_scale{ 1.0 };
+};
+
+/// Surface-like shading of classified values by the direction of their gradient, after Blinn and
+/// Phong, as VTK's volume mappers do: colour · (ambient + diffuse) + specular.
+struct Shading
+{
+  bool enabled = false;
+  double ambient = 0.1;
+  double diffuse = 0.7;
+  double specular = 0.2;
+  double specular_power = 10.0;
+  /// Normals that point away from the viewer are turned round.
+  bool two_sided = true;
+  /// Colour of the ambient light.
+  glm::dvec3 ambient_light{ 1.0 };
+};
+
+/// A light of the shading model, in world space. Colours include the intensity.
+struct Light
+{
+  glm::dvec3 diffuse{ 1.0 };
+  glm::dvec3 specular{ 1.0 };
+  /// Unit vector along which the light travels.
+  glm::dvec3 direction{ 0.0, 0.0, -1.0 };
+  bool positional = false;
+  glm::dvec3 position{ 0.0 };
+  /// 1 / (a + b d + c d²) at the distance d; positional lights only.
+  glm::dvec3 attenuation{ 1.0, 0.0, 0.0 };
+  /// Half angle of the cone in degrees; over 90 the light shines all round. Positional only.
+  double cone_angle = 180.0;
+  /// Exponent of the fall-off inside the cone.
+  double exponent = 1.0;
+};
+
+/// The camera as one matrix, so that perspective, parallel, sheared and off-axis views are alike.
+struct Camera
+{
+  /// World to normalised device coordinates, [-1, 1] along x and y for the picture's edges and
+  /// along z from the near to the far plane. Nothing nearer or farther is drawn.
+  glm::dmat4 clip_from_world{ 1.0 };
+  /// The direction of projection in world space, for shading; a unit vector.
+  glm::dvec3 direction{ 0.0, 0.0, -1.0 };
+};
+
+/// How the grid's values become optical properties.
+enum class ValueMeaning
+{
+  Density,
+  Classified,
+};
+
+/// A scene of one grid.
+struct Scene
+{
+  Grid grid;
+  /// Index space to the data's own coordinates (spacing, direction, origin). Lengths along a ray,
+  /// steps and unit distances are measured there.
+  glm::dmat4 data_from_index{ 1.0 };
+  /// The data's coordinates to the world (a prop's matrix). It moves and deforms the picture, and
+  /// leaves optical depths as they are, as VTK's mappers do.
+  glm::dmat4 world_from_data{ 1.0 };
+
+  ValueMeaning meaning = ValueMeaning::Classified;
+  Density density;
+  Classification classification;
+  Shading shading;
+  std::vector<Light> lights;
+  Camera camera;
+
+  /// Opaque geometry: normalised device depth in [-1, 1] of the nearest surface of each pixel, rows
+  /// from the bottom up, as many as the film has pixels; empty for none. Rays end there.
+  std::vector<float> surface_depth;
+
+  /// Keys of the marcher's caches. Give a new number whenever the voxels (data_revision) or their
+  /// meaning (medium_revision: density, classification) change.
+  std::uint64_t data_revision = 0;
+  std::uint64_t medium_revision = 0;
+};
+
+}

@@ -1,0 +1,75 @@
+// Surface-like shading of a volume, once for scalars and packets. Included inside the namespace
+// that has the number type R and its functions: dot, max, select, pow, rsqrt_or_zero.
+// No include guard: scalar.h includes it once, each SIMD target once more.
+
+/// Light that a light source of the model sends to a point: how much, and from where.
+template <class R>
+struct Incidence
+{
+  Vec3<R> toward; ///< unit vector from the point toward the light
+  R strength;     ///< attenuation and cone
+};
+
+/// Incidence of a light at a place of the world. Distance attenuation 1/(a + b d + c d²) and the
+/// cone's cosᵉ fall-off are VTK's (vtkLight).
+template <class R>
+Incidence<R> incidence(const ShadeLight& light, const Vec3<R>& place)
+{
+  const Vec3<R> along = broadcast3<R>(light.direction);
+  if (!light.positional)
+  {
+    return { -along, broadcast<R>(1.0f) };
+  }
+  const Vec3<R> offset = place - broadcast3<R>(light.position);
+  const R square = dot(offset, offset);
+  const R inverse = rsqrt_or_zero(square);
+  const R distance = square * inverse;
+  const Vec3<R> travel = offset * inverse;
+  R strength = broadcast<R>(1.0f) /
+    (broadcast<R>(light.attenuation[0]) + broadcast<R>(light.attenuation[1]) * distance +
+      broadcast<R>(light.attenuation[2]) * square);
+  if (light.cone_cosine > -1.0f)
+  {
+    const R cosine = dot(travel, along);
+    strength = select(cosine >= broadcast<R>(light.cone_cosine),
+      strength * pow(max(cosine, broadcast<R>(1e-6f)), light.exponent), broadcast<R>(0.0f));
+  }
+  return { -travel, strength };
+}
+
+/// Blinn and Phong's model on the direction of the gradient, as vtkFixedPointVolumeRayCastMapper
+/// has it: colour ← colour · (ambient + Σ diffuse) + Σ specular, with the normal against the
+/// gradient and turned toward the viewer when two-sided. No gradient: the ambient term alone.
+/// `gradient` is in world space and of any length, `toward_viewer` a unit vector.
+/// Source: Blinn, Models of light reflection for computer synthesized pictures, SIGGRAPH 1977.
+template <class R>
+Vec3<R> shade(const ShadeModel& model, const Vec3<R>& gradient, const Vec3<R>& toward_viewer,
+  const Vec3<R>& place, const Vec3<R>& colour)
+{
+  const R zero = broadcast<R>(0.0f);
+  Vec3<R> normal = gradient * (zero - rsqrt_or_zero(dot(gradient, gradient)));
+  if (model.two_sided)
+  {
+    const R facing = dot(normal, toward_viewer);
+    const R sign = select(facing >= zero, broadcast<R>(1.0f), broadcast<R>(-1.0f));
+    normal = normal * sign;
+  }
+  Vec3<R> diffuse = broadcast3<R>(model.ambient);
+  Vec3<R> specular{ zero, zero, zero };
+  for (const ShadeLight& light : model.lights)
+  {
+    const Incidence<R> from = incidence<R>(light, place);
+    const R n_dot_l = dot(normal, from.toward);
+    const R lit = max(n_dot_l, zero) * from.strength;
+    diffuse = diffuse + broadcast3<R>(light.diffuse) * lit;
+    if (model.specular)
+    {
+      const Vec3<R> between = from.toward + toward_viewer;
+      const R n_dot_h = dot(normal, between) * rsqrt_or_zero(dot(between, between));
+      const R highlight =
+        select(n_dot_l > zero, pow(max(n_dot_h, broadcast<R>(1e-6f)), model.specular_power), zero);
+      specular = specular + broadcast3<R>(light.specular) * (highlight * from.strength);
+    }
+  }
+  return colour * diffuse + specular;
+}

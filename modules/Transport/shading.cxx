@@ -1,0 +1,68 @@
+#include "Transport/shading.h"
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+
+namespace brume
+{
+
+ShadeModel prepare_shading(const Scene& scene)
+{
+  ShadeModel model;
+  const Shading& shading = scene.shading;
+  model.enabled = shading.enabled;
+  model.two_sided = shading.two_sided;
+  model.specular_power = static_cast<float>(shading.specular_power);
+  double brightest_diffuse = 0.0;
+  double brightest_specular = 0.0;
+  for (int c = 0; c < 3; ++c)
+  {
+    model.ambient[c] = static_cast<float>(shading.ambient * shading.ambient_light[c]);
+    brightest_diffuse = std::max(brightest_diffuse, double(model.ambient[c]));
+  }
+  for (const Light& light : scene.lights)
+  {
+    ShadeLight l{};
+    for (int c = 0; c < 3; ++c)
+    {
+      l.diffuse[c] = static_cast<float>(shading.diffuse * light.diffuse[c]);
+      l.specular[c] = static_cast<float>(shading.specular * light.specular[c]);
+      l.direction[c] = static_cast<float>(light.direction[c]);
+      l.position[c] = static_cast<float>(light.position[c]);
+      l.attenuation[c] = static_cast<float>(light.attenuation[c]);
+      model.specular = model.specular || l.specular[c] > 0.0f;
+    }
+    const double degree = 3.14159265358979323846 / 180.0;
+    l.cone_cosine =
+      light.cone_angle > 90.0 ? -2.0f : static_cast<float>(std::cos(light.cone_angle * degree));
+    l.exponent = static_cast<float>(light.exponent);
+    l.positional = light.positional;
+    model.needs_place = model.needs_place || l.positional;
+    brightest_diffuse += *std::max_element(l.diffuse, l.diffuse + 3);
+    brightest_specular += *std::max_element(l.specular, l.specular + 3);
+    model.lights.push_back(l);
+  }
+  model.brightest = shading.enabled ? brightest_diffuse + brightest_specular : 1.0;
+
+  // A gradient is a covector: it goes to the world by the inverse transpose.
+  const glm::dmat4 world_from_index = scene.world_from_data * scene.data_from_index;
+  const glm::dmat3 covector = glm::transpose(glm::inverse(glm::dmat3(world_from_index)));
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 3; ++column)
+    {
+      model.world_from_gradient[3 * row + column] = static_cast<float>(covector[column][row]);
+    }
+    for (int column = 0; column < 4; ++column)
+    {
+      model.world_from_index[4 * row + column] =
+        static_cast<float>(world_from_index[column][row]);
+    }
+  }
+  return model;
+}
+
+}
