@@ -1,17 +1,165 @@
+/**
+ * @class   vtkBrumeVolumeMapper
+ * @brief   what all of Brume's volume mappers share: a tolerance, statistics, and a way without a
+ * window
+ *
+ * A vtkBrumeVolumeMapper takes the place of one of VTK's volume mappers:
+ *
+ * @code
+ * vtkNew<vtkBrumeRayMarchMapper> mapper; // was: vtkFixedPointVolumeRayCastMapper
+ * mapper->SetInputConnection(reader->GetOutputPort());
+ * volume->SetMapper(mapper);
+ * @endcode
+ *
+ * It reads the vtkVolumeProperty, the renderer's lights and camera and the prop's matrix as VTK's
+ * mappers do, makes its picture on the CPU, and blends it into the frame. Opaque geometry that was
+ * drawn before hides what is behind it. Input is a vtkImageData of one component of any type, or of
+ * four dependent components of unsigned char (red, green, blue, opacity); points or cells.
+ *
+ * RenderFilm() and RenderImage() make the same picture with no window, no OpenGL and no display.
+ *
+ * Lengths (sample distance, opacity unit distance) are measured in the data's own coordinates,
+ * before the prop's matrix, as in VTK. docs/dev/units.md has all conventions.
+ *
+ * Events: vtkCommand::StartEvent, ProgressEvent (from the calling thread, GetProgress() in [0, 1])
+ * and EndEvent around a render. A render stops, and draws nothing, when an observer calls
+ * AbortExecuteOn() or when the render window's abort check asks for it.
+ */
 #ifndef vtkBrumeVolumeMapper_h
 #define vtkBrumeVolumeMapper_h
 
 #include "vtkBrumeMappersModule.h"
 #include "vtkVolumeMapper.h"
 
+#include <memory> // for std::unique_ptr
+#include <string> // for std::string
+
+class vtkCamera;
+class vtkImageData;
+class vtkLightCollection;
+
+namespace brume
+{
+struct Film;
+struct Scene;
+}
+
 class VTKBRUMEMAPPERS_EXPORT vtkBrumeVolumeMapper : public vtkVolumeMapper
 {
 public:
   vtkTypeMacro(vtkBrumeVolumeMapper, vtkVolumeMapper);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The largest error of a pixel that is accepted for speed, as a fraction of white: a quarter of
+   * it for leaving rays early, the rest for steps. Default 0.004, about one level of an 8-bit
+   * screen. Range 0 (exact as can be) to 1; values outside are clamped.
+   */
+  vtkSetClampMacro(Tolerance, double, 0.0, 1.0);
+  vtkGetMacro(Tolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Threads that render. Default 0: as many as the machine has processors. Range 0 to 1024; values
+   * outside are clamped. The picture is the same, bit for bit, for every number.
+   */
+  vtkSetClampMacro(NumberOfThreads, int, 0, 1024);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  ///@{
+  /**
+   * Whether surfaces are lit from both sides in renders without a renderer. In a renderer its own
+   * TwoSidedLighting counts. Default on, as in vtkRenderer.
+   */
+  vtkSetMacro(TwoSidedLighting, vtkTypeBool);
+  vtkGetMacro(TwoSidedLighting, vtkTypeBool);
+  vtkBooleanMacro(TwoSidedLighting, vtkTypeBool);
+  ///@}
+
+  /**
+   * What the last render took and did, as a JSON object: mapper, seconds (the render alone),
+   * seconds_prepare (scans, tables, step choice), samples, rays, threads, simd, effects (a list of
+   * {name, on, reason, error_bound}), non_finite_voxels, radiometric, completed and what the mapper
+   * adds. docs/user/statistics.md describes each. "{}" before the first render.
+   */
+  const std::string& GetStatistics() const { return this->Statistics; }
+
+  /**
+   * Draws into the renderer's frame. Called by VTK.
+   */
+  void Render(vtkRenderer* renderer, vtkVolume* volume) override;
+
+  /**
+   * Draws without a window: the camera's view of the volume over one background colour, as floats.
+   * `image` becomes width × height × 1 points with the scalars "rgb", 3 components of float, linear,
+   * rows from the bottom up. `lights` may be null: a headlight then. The camera's clipping range is
+   * used as it is; vtkBrumeVolumeMapper::ResetClippingRange fits it to the volume. Returns false,
+   * after a vtkErrorMacro, when there is nothing to draw or the render was aborted.
+   */
+  bool RenderImage(vtkVolume* volume, vtkCamera* camera, vtkLightCollection* lights, int width,
+    int height, const double background[3], vtkImageData* image);
+
+  /**
+   * Fits the camera's clipping range to the volume's bounds, as vtkRenderer::ResetCameraClippingRange
+   * does for all props of a window.
+   */
+  static void ResetClippingRange(vtkVolume* volume, vtkCamera* camera);
+
+#ifndef __VTK_WRAP__
+  /**
+   * As RenderImage, but all that a picture knows: radiance, transmittance, depth, error. The film's
+   * size is the picture's.
+   */
+  bool RenderFilm(
+    vtkVolume* volume, vtkCamera* camera, vtkLightCollection* lights, brume::Film& film);
+
+  /**
+   * The scene as Transport sees it, brought up to date for a picture of this size; for measuring
+   * pictures against brume::render_reference. Null, after a vtkErrorMacro, where there is nothing to
+   * draw. Valid until the next call of any method of the mapper or change of its input.
+   */
+  const brume::Scene* UpdateScene(
+    vtkVolume* volume, vtkCamera* camera, vtkLightCollection* lights, int width, int height);
+#endif
+
+  void ReleaseGraphicsResources(vtkWindow* window) override;
 
 protected:
-  vtkBrumeVolumeMapper() = default;
-  ~vtkBrumeVolumeMapper() override = default;
+  vtkBrumeVolumeMapper();
+  ~vtkBrumeVolumeMapper() override;
+
+  /**
+   * Fills the film with a picture of the scene. Subclasses report through ReportProgress, and put
+   * what they did into Statistics. Returns whether the picture was completed.
+   */
+  virtual bool RenderScene(brume::Scene& scene, brume::Film& film) = 0;
+
+  /**
+   * To be called by RenderScene now and then, from the thread that called it: sends ProgressEvent,
+   * asks the window, returns false when the render is to stop.
+   */
+  bool ReportProgress(double fraction);
+
+  /// Seconds that bringing the last scene up to date took.
+  double SecondsScene = 0.0;
+  double Tolerance = 0.004;
+  int NumberOfThreads = 0;
+  vtkTypeBool TwoSidedLighting = 1;
+  std::string Statistics;
+
+private:
+  vtkBrumeVolumeMapper(const vtkBrumeVolumeMapper&) = delete;
+  void operator=(const vtkBrumeVolumeMapper&) = delete;
+
+  bool RenderUpdated(brume::Scene& scene, brume::Film& film);
+  void ReadSurfaceDepth(vtkRenderer* renderer, brume::Scene& scene, const brume::Film& film,
+    int left, int bottom) const;
+
+  struct Internals;
+  std::unique_ptr<Internals> Internal;
 };
 
 #endif

@@ -78,9 +78,8 @@ double diagonal(const Scene& scene)
 
 struct Marcher::Cache
 {
-  bool have_ranges = false;
   std::uint64_t data_revision = 0;
-  BrickRanges ranges;
+  std::shared_ptr<const BrickRanges> ranges;
 
   bool have_visible = false;
   std::uint64_t medium_revision = 0;
@@ -92,11 +91,11 @@ struct Marcher::Cache
 
   void update_ranges(const Scene& scene)
   {
-    if (!this->have_ranges || this->data_revision != scene.data_revision)
+    if (!this->ranges || this->data_revision != scene.data_revision)
     {
-      this->ranges = measure_bricks(scene.grid);
+      this->ranges = scene.ranges ? scene.ranges
+                                  : std::make_shared<BrickRanges>(measure_bricks(scene.grid));
       this->data_revision = scene.data_revision;
-      this->have_ranges = true;
       this->have_visible = false;
     }
   }
@@ -114,7 +113,7 @@ struct Marcher::Cache
     }
     if (!this->have_visible || new_medium)
     {
-      this->visible = find_visible_bricks(this->ranges,
+      this->visible = find_visible_bricks(*this->ranges,
         [&](float lower, float upper)
         {
           return classified ? this->table.can_show(lower, upper)
@@ -132,13 +131,6 @@ Marcher::Marcher()
 }
 
 Marcher::~Marcher() = default;
-
-void Marcher::value_range(const Scene& scene, double range[2])
-{
-  this->Kept->update_ranges(scene);
-  range[0] = this->Kept->ranges.lower;
-  range[1] = this->Kept->ranges.upper;
-}
 
 MarchStatistics Marcher::render(
   const Scene& scene, const MarchSettings& settings, Film& film, const Progress& progress)
@@ -179,10 +171,10 @@ MarchStatistics Marcher::render(
   common.grid = &scene.grid;
   common.meaning = scene.meaning;
   common.rays = &rays;
-  common.non_finite = kept.ranges.non_finite_voxels > 0;
+  common.non_finite = kept.ranges->non_finite_voxels > 0;
   common.step = step;
   common.film = &film;
-  common.bricks = kept.visible.visible < kept.ranges.size() ? &kept.visible : nullptr;
+  common.bricks = kept.visible.visible < kept.ranges->size() ? &kept.visible : nullptr;
   if (scene.meaning == ValueMeaning::Classified)
   {
     common.table = &kept.table;
@@ -257,8 +249,8 @@ MarchStatistics Marcher::render(
   statistics.samples = samples;
   statistics.rays = ray_count;
   statistics.threads = threads;
-  statistics.non_finite_voxels = kept.ranges.non_finite_voxels;
-  statistics.bricks = kept.ranges.size();
+  statistics.non_finite_voxels = kept.ranges->non_finite_voxels;
+  statistics.bricks = kept.ranges->size();
   statistics.visible_bricks = kept.visible.visible;
   statistics.completed = !aborted;
   const std::string targets = simd_targets();
@@ -271,7 +263,11 @@ std::string simd_targets()
   std::string names;
   for (std::int64_t target : hwy::SupportedAndGeneratedTargets())
   {
-    names += (names.empty() ? "" : " ") + std::string(hwy::TargetName(target));
+    if (!names.empty())
+    {
+      names += ' ';
+    }
+    names += hwy::TargetName(target);
   }
   return names;
 }

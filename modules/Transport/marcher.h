@@ -62,10 +62,6 @@ public:
   MarchStatistics render(const Scene& scene, const MarchSettings& settings, Film& film,
     const Progress& progress = {});
 
-  /// Lowest and highest finite value of the scene's grid, scanning it if need be;
-  /// lower > upper where there is none.
-  void value_range(const Scene& scene, double range[2]);
-
 private:
   struct Cache;
   std::unique_ptr<Cache> Kept;

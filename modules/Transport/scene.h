@@ -2,12 +2,14 @@
 // Conventions and units: docs/dev/units.md.
 #pragma once
 
+#include "Transport/bricks.h"
 #include "Transport/grid.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace brume
@@ -98,6 +100,8 @@ enum class ValueMeaning
 struct Scene
 {
   Grid grid;
+  /// The grid's brick ranges, where the caller has measured them; otherwise the marcher does.
+  std::shared_ptr<const BrickRanges> ranges;
   /// Index space to the data's own coordinates (spacing, direction, origin). Lengths along a ray,
   /// steps and unit distances are measured there.
   glm::dmat4 data_from_index{ 1.0 };

@@ -1,0 +1,107 @@
+#include "vtkBrumeFilmBlender.h"
+
+#include "Transport/film.h"
+
+#include "vtkObjectFactory.h"
+#include "vtkOpenGLQuadHelper.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLShaderCache.h"
+#include "vtkOpenGLState.h"
+#include "vtkRenderer.h"
+#include "vtkShaderProgram.h"
+#include "vtkTextureObject.h"
+#include "vtk_glew.h"
+
+namespace
+{
+
+// One texel a pixel: the quad fills the viewport and the film is as large.
+const char* const FragmentShader = R"(//VTK::System::Dec
+//VTK::Output::Dec
+uniform sampler2D film;
+in vec2 texCoord;
+void main()
+{
+  gl_FragData[0] = texelFetch(film, ivec2(texCoord * vec2(textureSize(film, 0))), 0);
+}
+)";
+
+}
+
+vtkStandardNewMacro(vtkBrumeFilmBlender);
+
+vtkBrumeFilmBlender::vtkBrumeFilmBlender()
+  : Texture(vtkTextureObject::New())
+{
+}
+
+vtkBrumeFilmBlender::~vtkBrumeFilmBlender()
+{
+  this->Texture->Delete();
+}
+
+bool vtkBrumeFilmBlender::Blend(const brume::Film& film, vtkRenderer* renderer)
+{
+  auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  if (!window)
+  {
+    return false;
+  }
+  this->Pixels.resize(4 * film.size());
+  for (std::size_t i = 0; i < film.size(); ++i)
+  {
+    float opacity = 1.0f;
+    for (int c = 0; c < 3; ++c)
+    {
+      this->Pixels[4 * i + c] = film.radiance[c][i];
+      opacity -= film.transmittance[c][i] / 3.0f;
+    }
+    this->Pixels[4 * i + 3] = opacity;
+  }
+  this->Texture->SetContext(window);
+  this->Texture->SetMinificationFilter(vtkTextureObject::Nearest);
+  this->Texture->SetMagnificationFilter(vtkTextureObject::Nearest);
+  if (!this->Texture->Create2DFromRaw(static_cast<unsigned int>(film.width),
+        static_cast<unsigned int>(film.height), 4, VTK_FLOAT, this->Pixels.data()))
+  {
+    return false;
+  }
+  if (!this->Quad)
+  {
+    this->Quad = std::make_unique<vtkOpenGLQuadHelper>(window, nullptr, FragmentShader, "");
+  }
+  else
+  {
+    window->GetShaderCache()->ReadyShaderProgram(this->Quad->Program);
+  }
+  if (!this->Quad->Program)
+  {
+    return false;
+  }
+  vtkOpenGLState* state = window->GetState();
+  vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
+  vtkOpenGLState::ScopedglEnableDisable blending(state, GL_BLEND);
+  vtkOpenGLState::ScopedglBlendFuncSeparate blendFunction(state);
+  vtkOpenGLState::ScopedglDepthMask depthMask(state);
+  state->vtkglDisable(GL_DEPTH_TEST);
+  state->vtkglDepthMask(GL_FALSE);
+  state->vtkglEnable(GL_BLEND);
+  state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  this->Texture->Activate();
+  this->Quad->Program->SetUniformi("film", this->Texture->GetTextureUnit());
+  this->Quad->Render();
+  this->Texture->Deactivate();
+  return true;
+}
+
+void vtkBrumeFilmBlender::ReleaseGraphicsResources(vtkWindow* window)
+{
+  this->Quad.reset();
+  this->Texture->ReleaseGraphicsResources(window);
+}
+
+void vtkBrumeFilmBlender::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Texture: " << this->Texture << "\n";
+}
