@@ -24,18 +24,18 @@ double decisive_error(const ImageErrors& errors)
   return std::isfinite(e) ? e : 0.0;
 }
 
-/// 1, 2 or 5 times a power of ten, not below `least`.
-double round_step(double least)
+/// The largest 1, 2 or 5 times a power of ten that is not above `most`.
+double round_step(double most)
 {
-  const double power = std::pow(10.0, std::floor(std::log10(least)));
-  for (const double factor : { 1.0, 2.0, 5.0 })
+  const double power = std::pow(10.0, std::floor(std::log10(most)));
+  for (const double factor : { 5.0, 2.0 })
   {
-    if (factor * power >= least * (1.0 - 1e-9))
+    if (factor * power <= most * (1.0 + 1e-9))
     {
       return factor * power;
     }
   }
-  return 10.0 * power;
+  return power;
 }
 
 }
@@ -117,7 +117,7 @@ std::vector<LegendTick> legend_ticks(DifferenceKind kind, double gain)
 {
   const double end = 255.0 / gain;
   const bool both_ways = kind == DifferenceKind::Signed;
-  const double step = round_step(both_ways ? end / 2.0 : end / 5.0);
+  const double step = round_step(both_ways ? end : end / 2.0);
   const int count = static_cast<int>(std::floor(end / step * (1.0 + 1e-9)));
   std::vector<LegendTick> ticks;
   for (int i = both_ways ? -count : 0; i <= count; ++i)

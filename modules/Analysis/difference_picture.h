@@ -55,7 +55,7 @@ struct LegendTick
   std::string text;      ///< the error there, in units of 1/255
 };
 
-/// Three to six marks at round errors (1, 2 or 5 times a power of ten).
+/// Three to five marks at round errors (1, 2 or 5 times a power of ten).
 VTKBRUMEANALYSIS_EXPORT std::vector<LegendTick> legend_ticks(DifferenceKind kind, double gain);
 
 /// The displayed colour at a place along the legend's bar, in [0, 1]: R, G, B bytes.

@@ -93,7 +93,7 @@ std::string in_255ths(double fraction)
 
 std::string over_255(double fraction)
 {
-  return std::isfinite(fraction) ? in_255ths(fraction) + "/255" : figure(fraction);
+  return std::isfinite(fraction) && fraction != 0.0 ? in_255ths(fraction) + "/255" : figure(fraction);
 }
 
 std::string seconds_text(double seconds)

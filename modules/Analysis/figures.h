@@ -15,7 +15,7 @@ std::string figure(double value, int significant_digits = 3);
 /// A fraction of white in steps of an 8-bit display, without a unit: figure(255 * fraction).
 std::string in_255ths(double fraction);
 
-/// The same with its unit: "0.21/255"; "infinite" stands alone.
+/// The same with its unit: "0.21/255"; "0" and "infinite" stand alone.
 std::string over_255(double fraction);
 
 /// "0.081 s".

@@ -134,8 +134,9 @@ std::string broken_pictures(const ComparisonEntry& subject, const ComparisonEntr
     {
       text += " The picture of " + name_of(*entry) + " holds " +
         std::to_string(non_finite(*entry)) +
-        (non_finite(*entry) == 1 ? " value" : " values") +
-        " that are not finite numbers, so its error is infinite.";
+        (non_finite(*entry) == 1 ? " value that is not a finite number"
+                                 : " values that are not finite numbers") +
+        ", so its error is infinite.";
     }
   }
   return text;

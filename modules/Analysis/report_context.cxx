@@ -20,6 +20,19 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
+/// The sentence with each figure tied to its unit, so that no line breaks between them.
+std::string tied(std::string sentence)
+{
+  for (const char* unit : { " s,", " s)", " s.", " s ", " %", " times" })
+  {
+    for (std::size_t at = 0; (at = sentence.find(unit, at)) != std::string::npos; ++at)
+    {
+      sentence.replace(at, 1, "\u00A0");
+    }
+  }
+  return sentence;
+}
+
 std::vector<const ComparisonEntry*> drawn_entries(const Comparison& comparison)
 {
   std::vector<const ComparisonEntry*> drawn;
@@ -146,6 +159,7 @@ void add_tables(Json& context, const Comparison& comparison)
 {
   const ComparisonEntry* reference = find_drawn(comparison, comparison.reference_mapper);
   context["reference_title"] = reference ? title_of(*reference) : "no reference";
+  context["speed_note"] = reference ? title_of(*reference) + " = 1" : "no reference";
   context["rows"] = Json::array();
   context["reference_rows"] = Json::array();
   for (const ComparisonEntry* entry : drawn_entries(comparison))
@@ -333,7 +347,7 @@ Json report_context(const Comparison& comparison)
 {
   Json context;
   context["date"] = comparison.date;
-  context["headline"] = headline(comparison);
+  context["headline"] = tied(headline(comparison));
   context["command_line"] = comparison.command_line;
   context["has_entries"] = subject_of(comparison) != nullptr;
   context["skipped"] = Json::array();

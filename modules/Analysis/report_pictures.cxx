@@ -63,7 +63,8 @@ Json difference_json(const std::string& id, const std::string& title,
   if (difference.non_finite_pixels > 0)
   {
     json["figures"] = json["figures"].get<std::string>() + "; " +
-      std::to_string(difference.non_finite_pixels) + " pixels not finite";
+      std::to_string(difference.non_finite_pixels) +
+      (difference.non_finite_pixels == 1 ? " pixel" : " pixels") + " not finite";
   }
   return json;
 }

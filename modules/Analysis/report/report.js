@@ -9,19 +9,21 @@
   var stage = wipe.querySelector(".stage");
   var at = document.getElementById("wipe-at");
   var sides = [
-    { choice: document.getElementById("wipe-left"), image: document.getElementById("wipe-above") },
-    { choice: document.getElementById("wipe-right"), image: document.getElementById("wipe-below") }
+    { name: "wipe-left", image: document.getElementById("wipe-above") },
+    { name: "wipe-right", image: document.getElementById("wipe-below") }
   ];
   sides.forEach(function (side, index) {
+    var choice = document.getElementById(side.name);
     pictures.forEach(function (picture, number) {
-      side.choice.add(new Option(picture.dataset.wipe, number, false, number === index));
+      choice.add(new Option(picture.dataset.wipe, number, false, number === index));
     });
     function show() {
-      var picture = pictures[side.choice.value];
+      var picture = pictures[choice.value];
       side.image.src = picture.src;
       side.image.alt = picture.alt;
+      document.getElementById(side.name + "-figures").textContent = picture.dataset.figures;
     }
-    side.choice.addEventListener("change", show);
+    choice.addEventListener("change", show);
     show();
   });
   function place(percent) {
