@@ -224,30 +224,64 @@ TEST(Panel, has_a_column_for_each_mapper_and_the_truth)
   }
 }
 
-TEST(Panel, holds_the_pictures_themselves)
+/// The place of the bitmap's middle row in the sheet, or the sheet's end.
+std::size_t place_of(const brume::Bitmap& bitmap, const brume::Bitmap& sheet)
+{
+  const auto row = bitmap.rgb.begin() + 3 * bitmap.width * (bitmap.height / 2);
+  return std::search(sheet.rgb.begin(), sheet.rgb.end(), row, row + 3 * bitmap.width) -
+    sheet.rgb.begin();
+}
+
+TEST(Panel, holds_the_pictures_above_their_differences_at_one_gain)
 {
   const brume::Comparison comparison = sample::comparison(320, 200); // not scaled
   const brume::Bitmap sheet = brume::panel(comparison);
-  const brume::Bitmap first = brume::to_bitmap(comparison.entries[0].picture);
-  const std::vector<unsigned char> middle(
-    first.rgb.begin() + 3 * 320 * 100, first.rgb.begin() + 3 * 320 * 101);
-  const auto found =
-    std::search(sheet.rgb.begin(), sheet.rgb.end(), middle.begin(), middle.end());
-  EXPECT_NE(found, sheet.rgb.end());
+  const double gain = brume::automatic_gain(comparison.entries[2].against_truth);
+  EXPECT_GT(brume::automatic_gain(comparison.entries[0].against_truth), gain);
+  for (const brume::ComparisonEntry& entry : comparison.entries)
+  {
+    const std::size_t picture = place_of(brume::to_bitmap(entry.picture), sheet);
+    const std::size_t difference = place_of(brume::difference_picture(entry.picture,
+      comparison.truth.picture, DifferenceKind::Absolute, gain).bitmap, sheet);
+    EXPECT_LT(picture, sheet.rgb.size()) << entry.title;
+    EXPECT_LT(difference, picture) << entry.title << ": rows run upward";
+  }
+  EXPECT_LT(place_of(brume::to_bitmap(comparison.truth.picture), sheet), sheet.rgb.size());
 }
 
-TEST(Panel, keeps_its_size_whatever_the_titles)
+TEST(Panel, letters_are_light)
+{
+  const brume::Bitmap sheet = brume::panel(sample::comparison(320, 200));
+  int brightest = 0;
+  for (int y = sheet.height - 60; y < sheet.height; ++y) // the head
+  {
+    for (int x = 0; x < sheet.width; ++x)
+    {
+      brightest = std::max(brightest, pixel(sheet, x, y)[1]);
+    }
+  }
+  EXPECT_GT(brightest, 220);
+}
+
+TEST(Panel, cuts_titles_to_their_column)
 {
   brume::Comparison comparison = sample::comparison(320, 200);
   const brume::Bitmap plain = brume::panel(comparison);
   comparison.entries[0].title = std::string(500, 'W') + " \xff\xfe $x_1$ × …";
-  comparison.scene.input = std::string(500, '/');
-  const brume::Bitmap long_titles = brume::panel(comparison);
-  EXPECT_EQ(long_titles.width, plain.width);
-  EXPECT_EQ(long_titles.height, plain.height);
-  EXPECT_NE(long_titles.rgb, plain.rgb);
-  comparison.entries[0].title += " and more that nobody sees";
-  EXPECT_EQ(brume::panel(comparison).rgb, long_titles.rgb) << "cut with an ellipsis";
+  const brume::Bitmap cut = brume::panel(comparison);
+  ASSERT_EQ(cut.width, plain.width);
+  ASSERT_EQ(cut.height, plain.height);
+  EXPECT_NE(cut.rgb, plain.rgb);
+  constexpr int second_column = 24 + 320 + 12; // margin, cell, gap
+  for (int y = 0; y < plain.height; ++y)
+  {
+    for (int x = second_column; x < plain.width; ++x)
+    {
+      ASSERT_EQ(pixel(cut, x, y), pixel(plain, x, y)) << x << ", " << y;
+    }
+  }
+  comparison.scene.input = std::string(5000, '/');
+  EXPECT_EQ(brume::panel(comparison).width, plain.width);
 }
 
 TEST(Panel, without_truth_has_one_row)
