@@ -246,12 +246,24 @@ TEST(TextTable, says_inf_and_dash)
   EXPECT_TRUE(std::regex_search(table, std::regex("vtk-fixed-point .* - +- +- +- +-\n"))) << table;
 }
 
+/// The page with its data URIs emptied: std::regex recurses over every letter of them.
+std::string without_pictures(std::string page)
+{
+  const std::string mark = "base64,";
+  for (std::size_t at = 0; (at = page.find(mark, at)) != std::string::npos;)
+  {
+    at += mark.size();
+    page.erase(at, page.find('"', at) - at);
+  }
+  return page;
+}
+
 /// Walks the tags of a page: each is closed in its order, each attribute is quoted, each id is alone.
 /// The first fault, or nothing.
 std::string fault_of(std::string page)
 {
   static const std::set<std::string> empty_tags{ "meta", "img", "br", "input", "link" };
-  page = std::regex_replace(page, std::regex("base64,[A-Za-z0-9+/=]+"), "base64,");
+  page = without_pictures(page);
   std::vector<std::string> open;
   std::set<std::string> ids;
   const std::regex tag_form(R"(^<(/?)([a-z][a-z0-9]*)((\s+[a-z-]+(="[^"<>]*")?)*)\s*>)");
@@ -416,7 +428,7 @@ TEST(ReportHtml, shows_infinite_errors_as_such)
   EXPECT_TRUE(contains(page, "class=\"endless\""));
   EXPECT_TRUE(contains(page, "holds 1 value that is not a finite number"));
   EXPECT_TRUE(contains(page, "1 pixel not finite"));
-  EXPECT_FALSE(std::regex_search(page, std::regex("[>+ -](nan|inf)[ <]")));
+  EXPECT_FALSE(std::regex_search(without_pictures(page), std::regex("[>+ -](nan|inf)[ <]")));
 }
 
 }
