@@ -1,0 +1,34 @@
+#include "comparison.h"
+
+namespace brume
+{
+
+const ComparisonEntry* find_drawn(const Comparison& comparison, const std::string& mapper)
+{
+  for (const ComparisonEntry& entry : comparison.entries)
+  {
+    if (entry.mapper == mapper && entry.skipped.empty())
+    {
+      return &entry;
+    }
+  }
+  return nullptr;
+}
+
+const ComparisonEntry* subject_of(const Comparison& comparison)
+{
+  if (const ComparisonEntry* subject = find_drawn(comparison, comparison.subject_mapper))
+  {
+    return subject;
+  }
+  for (const ComparisonEntry& entry : comparison.entries)
+  {
+    if (entry.skipped.empty())
+    {
+      return &entry;
+    }
+  }
+  return nullptr;
+}
+
+}

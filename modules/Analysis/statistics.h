@@ -1,0 +1,15 @@
+// A mapper's own statistics, which travel as JSON text.
+#pragma once
+
+#include "comparison.h"
+
+#include <nlohmann/json.hpp>
+
+namespace brume
+{
+
+/// The entry's statistics as JSON, in their own order; an empty object where there are none.
+/// Throws std::invalid_argument, naming the mapper, when they are not a JSON object.
+nlohmann::ordered_json parse_statistics(const ComparisonEntry& entry);
+
+}
