@@ -130,7 +130,7 @@ Json describe(const Input& input, const VolumeSummary& summary)
   }
   j["percentiles"] = percentiles;
   j["histogram"] = { { "minimum", finite(summary.minimum) },
-    { "maximum", finite(summary.maximum) }, { "counts", summary.histogram } };
+    { "bin_width", finite(summary.bin_width) }, { "counts", summary.histogram } };
   j["messages"] = input.messages;
   return j;
 }

@@ -61,15 +61,21 @@ void summarize_values(const T* values, vtkIdType count, int step, int bins, Volu
     const double place = half_range > 0 ? (v / 2 - low / 2) / half_range : 0;
     return std::min(n_bins - 1, static_cast<int>(place * n_bins));
   };
+  // Bins of whole numbers hold equally many of them: others would show a comb that is not there.
+  s.bin_width = whole ? std::ceil((high - low + 1) / bins) : 2 * (half_range / bins);
+  const int n_bins = high == low ? 1 : whole ? static_cast<int>((high - low) / s.bin_width) + 1 : bins;
   std::vector<std::uint64_t> fine(Fine, 0);
-  s.histogram.assign(bins, 0);
+  std::vector<double> least(Fine, high); // of the values in each fine bin
+  s.histogram.assign(n_bins, 0);
   for (vtkIdType i = 0; i < count; ++i)
   {
     const double v = static_cast<double>(values[i * step]);
     if (std::isfinite(v))
     {
-      ++fine[whole ? static_cast<int>(v - low) : bin_of(v, Fine)];
-      ++s.histogram[bin_of(v, bins)];
+      const int bin = whole ? static_cast<int>(v - low) : bin_of(v, Fine);
+      ++fine[bin];
+      least[bin] = std::min(least[bin], v);
+      ++s.histogram[whole ? static_cast<int>((v - low) / s.bin_width) : bin_of(v, n_bins)];
     }
   }
   for (int percent : percents())
@@ -82,7 +88,7 @@ void summarize_values(const T* values, vtkIdType count, int step, int bins, Volu
     {
       ++bin;
     }
-    s.percentiles.push_back(whole ? low + bin : low + 2 * half_range * ((bin + 0.5) / Fine));
+    s.percentiles.push_back(least[bin]);
   }
 }
 
@@ -121,8 +127,7 @@ std::string draw_histogram(const VolumeSummary& summary, int width)
   std::string text;
   for (std::size_t i = 0; i < bins; ++i)
   {
-    const double part = static_cast<double>(i) / bins;
-    const double start = summary.minimum * (1 - part) + summary.maximum * part;
+    const double start = summary.minimum + static_cast<double>(i) * summary.bin_width;
     const std::uint64_t count = summary.histogram[i];
     const int bar = count == 0
       ? 0
@@ -132,10 +137,6 @@ std::string draw_histogram(const VolumeSummary& summary, int width)
     char number[32];
     std::snprintf(number, sizeof(number), "%llu", static_cast<unsigned long long>(count));
     text += label + std::string(bar, '#') + (count ? " " : "") + (count ? number : "") + "\n";
-    if (summary.maximum == summary.minimum)
-    {
-      break; // one value, one bin
-    }
   }
   return text;
 }

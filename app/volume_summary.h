@@ -20,7 +20,9 @@ struct VolumeSummary
   double standard_deviation = 0; ///< of all values (divided by their count)
   std::uint64_t finite = 0;
   std::uint64_t non_finite = 0;
-  std::vector<std::uint64_t> histogram; ///< equal bins from minimum to maximum, both included
+  /// Counts in equal bins, the first from `minimum` on; the last includes `maximum`.
+  std::vector<std::uint64_t> histogram;
+  double bin_width = 0; ///< whole for integers that span less than 65536
   /// The value below which so many percent of the values lie, for percents(). Exact for integers
   /// that span less than 65536; otherwise right to 1/65536 of the range.
   std::vector<double> percentiles;
@@ -28,7 +30,8 @@ struct VolumeSummary
 /// 1, 5, 25, 50, 75, 95, 99.
 const std::vector<int>& percents();
 
-VolumeSummary summarize(vtkImageData* image, int component = 0, int bins = 32);
+/// `bins` is the most the histogram may have.
+VolumeSummary summarize(vtkImageData* image, int component = 0, int bins = 24);
 
 /// The histogram as lines of text, at most `width` columns wide, longest bar the fullest bin; bars
 /// are as long as the logarithm of 1 + the count.
