@@ -46,6 +46,7 @@ struct ScanHeader
 {
   std::string path;   ///< the file as the user named it; errors begin with it
   std::string format; ///< for people: "NIfTI-1 (gzip)", "MetaImage", …
+  std::string array = "values"; ///< the name of the scalars
 
   std::array<std::int64_t, 3> dimensions{ { 0, 0, 0 } }; ///< voxels, x fastest
   std::int64_t components = 1;                           ///< numbers a voxel
@@ -92,5 +93,11 @@ void convert_to_millimetres(ScanHeader& header, const std::string& unit);
 ScanHeader read_nifti_header(const std::string& path);
 ScanHeader read_meta_header(const std::string& path);
 ScanHeader read_nrrd_header(const std::string& path);
+
+/// Legacy VTK structured points with one array of SCALARS right behind the header, as nearly every
+/// writer makes them: VTK 9.1 fills what such a file lacks with whatever memory holds, and says
+/// nothing. Returns a header without parts for other layouts (fields, colour scalars, bits), which
+/// are left to VTK's reader once their dimensions have been checked.
+ScanHeader read_legacy_header(const std::string& path);
 
 }

@@ -145,8 +145,13 @@ struct vtkBrumeImageReader::Internals
   void Open(const std::string& path, const io::Progress& progress)
   {
     const io::Format format = io::find_format(path);
-    if (format == io::Format::Vti || format == io::Format::LegacyVtk)
+    if (format == io::Format::LegacyVtk)
     {
+      this->Header = io::read_legacy_header(path);
+    }
+    if (format == io::Format::Vti || (format == io::Format::LegacyVtk && this->Header.parts.empty()))
+    {
+      this->Header = io::ScanHeader();
       io::VtkVolume volume = format == io::Format::Vti ? io::read_vti(path, progress)
                                                        : io::read_legacy(path, progress);
       this->Image = volume.image;
@@ -154,9 +159,12 @@ struct vtkBrumeImageReader::Internals
       this->Messages = volume.messages;
       return;
     }
-    this->Header = format == io::Format::Nifti ? io::read_nifti_header(path)
-      : format == io::Format::MetaImage        ? io::read_meta_header(path)
-                                               : io::read_nrrd_header(path);
+    if (format != io::Format::LegacyVtk)
+    {
+      this->Header = format == io::Format::Nifti ? io::read_nifti_header(path)
+        : format == io::Format::MetaImage        ? io::read_meta_header(path)
+                                                 : io::read_nrrd_header(path);
+    }
     io::check_header(this->Header);
     check_memory(this->Header);
     const std::array<long long, 3> dimensions{ { this->Header.dimensions[0],
@@ -201,7 +209,7 @@ struct vtkBrumeImageReader::Internals
     }
     vtkSmartPointer<vtkDataArray> values =
       rescales(this->Header) ? rescaled(stored, this->Header) : stored;
-    values->SetName("values");
+    values->SetName(this->Header.array.c_str());
     image->SetExtent(0, static_cast<int>(this->Header.dimensions[0] - 1), 0,
       static_cast<int>(this->Header.dimensions[1] - 1), 0,
       static_cast<int>(this->Header.dimensions[2] - 1));

@@ -233,95 +233,6 @@ VtkVolume read_vti(const std::string& path, const Progress& progress)
 
 VtkVolume read_legacy(const std::string& path, const Progress& progress)
 {
-  const std::uint64_t length = file_length(path, path);
-  LineReader lines(path);
-  std::string line;
-  lines.next(line);
-  lines.next(line); // the title
-  std::string kind;
-  while (lines.next(line) && (kind = lowered(trimmed(line))).empty())
-  {
-  }
-  if (kind != "ascii" && kind != "binary")
-  {
-    fail(path, "its third line is neither ASCII nor BINARY", Remedy);
-  }
-  const bool text = kind == "ascii";
-  double voxels = 0;
-  double numbers_a_voxel = 1;
-  double bytes_a_number = 1;
-  bool placed = false; // the scalars follow right behind the lines that were read
-  while (!placed && lines.next(line))
-  {
-    const std::vector<std::string> words = split_words(lowered(line));
-    std::vector<double> numbers;
-    if (words.empty())
-    {
-      continue;
-    }
-    if (words[0] == "dataset" && (words.size() < 2 || words[1] != "structured_points"))
-    {
-      fail(path, "holds " + (words.size() < 2 ? std::string("no dataset") : words[1]) +
-          ", not structured points", "resample it to an image (vtkResampleToImage)");
-    }
-    if (words[0] == "dimensions")
-    {
-      const std::size_t at = line.find_first_of("0123456789-+");
-      const bool parsed = at != std::string::npos && parse_numbers(line.substr(at), numbers);
-      if (!parsed || numbers.size() != 3)
-      {
-        fail(path, "its DIMENSIONS are not three counts", Remedy);
-      }
-      voxels = 1;
-      for (double n : numbers)
-      {
-        if (whole_number(n) < 1 || n > std::numeric_limits<int>::max())
-        {
-          fail(path, "its DIMENSIONS are not counts from 1 on: \"" + shortened(line) + "\"", Remedy);
-        }
-        voxels *= n;
-      }
-    }
-    else if (words[0] == "field" || words[0] == "color_scalars" || words[0] == "cell_data" ||
-      words[0] == "extent")
-    {
-      break; // what follows is of no length that is known here; VTK finds out
-    }
-    else if (words[0] == "scalars" && words.size() >= 3)
-    {
-      const std::string& type = words[2];
-      bytes_a_number = type == "double" || type == "long" || type == "unsigned_long" ||
-          type == "vtktypeint64" || type == "vtktypeuint64" || type == "vtkidtype"
-        ? 8
-        : type == "float" || type == "int" || type == "unsigned_int" ? 4
-        : type.find("short") != std::string::npos                     ? 2
-                                                                      : 1;
-      if (words.size() >= 4)
-      {
-        numbers_a_voxel = static_cast<double>(whole_number(
-          parse_numbers(words[3], numbers) && !numbers.empty() ? numbers[0] : -1));
-        if (numbers_a_voxel < 1 || numbers_a_voxel > 64)
-        {
-          fail(path, "its SCALARS have \"" + shortened(words[3]) + "\" numbers a voxel",
-            "Brume reads 1 to 64");
-        }
-      }
-      lines.next(line); // LOOKUP_TABLE
-      placed = lowered(trimmed(line)).compare(0, 12, "lookup_table") == 0;
-    }
-  }
-  if (placed && voxels == 0)
-  {
-    fail(path, "its DIMENSIONS are missing", Remedy);
-  }
-  const double rest = static_cast<double>(length) - (placed ? lines.position() : 0);
-  const double per_byte = text || !placed ? 0.5 : bytes_a_number;
-  check_promise(path, voxels * numbers_a_voxel * per_byte, rest + 1);
-  if (placed && !text)
-  {
-    check_promise(path, voxels * numbers_a_voxel * bytes_a_number, rest);
-  }
-
   Listener listener(progress);
   vtkNew<vtkStructuredPointsReader> reader;
   listener.listen(reader);
@@ -329,7 +240,7 @@ VtkVolume read_legacy(const std::string& path, const Progress& progress)
   reader->Update();
   stop_on_error(path, listener);
   VtkVolume volume;
-  volume.format = text ? "legacy VTK (ASCII)" : "legacy VTK (binary)";
+  volume.format = "legacy VTK";
   volume.image = vtkSmartPointer<vtkImageData>::New();
   volume.image->ShallowCopy(reader->GetOutput());
   settle_scalars(volume, path);

@@ -20,7 +20,8 @@ struct VtkVolume
 
 /// VTK XML image data (.vti). Throws fail().
 VtkVolume read_vti(const std::string& path, const Progress& progress);
-/// Legacy VTK structured points (.vtk), ASCII or binary. Throws fail().
+/// Legacy VTK structured points (.vtk) of the layouts that read_legacy_header() leaves to VTK. Throws
+/// fail().
 VtkVolume read_legacy(const std::string& path, const Progress& progress);
 
 }
