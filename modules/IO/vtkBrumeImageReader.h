@@ -17,7 +17,9 @@
  * Nothing of the volume's size is allocated before the header has been checked against the length
  * of the file. When something is wrong, the output is empty, ErrorEvent is invoked, and
  * GetErrorMessage() holds one line. No message of an inner reader reaches the standard error
- * stream; with an observer of ErrorEvent on this object, nothing at all does.
+ * stream; with an observer of ErrorEvent on this object, nothing at all does. To that end,
+ * vtkOutputWindow's instance and vtkLogger's verbosity on standard error are replaced while VTK's
+ * own readers run (.vti, and rare layouts of .vtk): do not read those in two threads at once.
  */
 #ifndef vtkBrumeImageReader_h
 #define vtkBrumeImageReader_h

@@ -11,7 +11,10 @@
 #include "vtkExecutive.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
+#include "vtkLogger.h"
 #include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkOutputWindow.h"
 #include "vtkPointData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStructuredPoints.h"
@@ -84,6 +87,47 @@ private:
   std::string error_;
   bool stopped_ = false;
   vtkNew<vtkCallbackCommand> command_;
+};
+
+/// Takes, while it lives, the place of VTK's window of messages: helper objects of VTK's readers
+/// (vtkXMLDataElement) report errors on themselves, where no observer of the reader hears them.
+class MessageTrap
+{
+public:
+  MessageTrap()
+    : before_(vtkOutputWindow::GetInstance())
+    , verbosity_(vtkLogger::GetCurrentVerbosityCutoff())
+  {
+    vtkNew<Window> window;
+    window->trap = this;
+    vtkOutputWindow::SetInstance(window);
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+  }
+  ~MessageTrap()
+  {
+    vtkLogger::SetStderrVerbosity(verbosity_);
+    vtkOutputWindow::SetInstance(before_);
+  }
+  MessageTrap(const MessageTrap&) = delete;
+  MessageTrap& operator=(const MessageTrap&) = delete;
+  bool error() const { return error_; }
+
+private:
+  class Window : public vtkOutputWindow
+  {
+  public:
+    static Window* New() { VTK_STANDARD_NEW_BODY(Window); }
+    void DisplayText(const char*) override {}
+    void DisplayErrorText(const char*) override { trap->error_ = true; }
+    void DisplayWarningText(const char*) override {}
+    void DisplayGenericWarningText(const char*) override {}
+    void DisplayDebugText(const char*) override {}
+    MessageTrap* trap = nullptr;
+  };
+
+  vtkSmartPointer<vtkOutputWindow> before_;
+  vtkLogger::Verbosity verbosity_;
+  bool error_ = false;
 };
 
 /// Voxels of an extent, or −1 for one that is empty or that no image can have.
@@ -161,7 +205,7 @@ std::string read_range(const std::string& path, std::uint64_t from, std::size_t 
   return text;
 }
 
-void stop_on_error(const std::string& path, const Listener& listener)
+void stop_on_error(const std::string& path, const Listener& listener, const MessageTrap& trap)
 {
   if (listener.stopped())
   {
@@ -170,6 +214,10 @@ void stop_on_error(const std::string& path, const Listener& listener)
   if (!listener.error().empty())
   {
     fail(path, "VTK cannot read it (" + listener.error() + ")", Remedy);
+  }
+  if (trap.error())
+  {
+    fail(path, "VTK cannot read it (its XML is not what the format asks for)", Remedy);
   }
 }
 
@@ -197,6 +245,7 @@ VtkVolume read_vti(const std::string& path, const Progress& progress)
     fail(path, "the file is cut short: it does not end with </VTKFile>", "copy or download it again");
   }
 
+  MessageTrap trap;
   Listener listener(progress);
   vtkNew<vtkXMLImageDataReader> reader;
   listener.listen(reader);
@@ -204,7 +253,7 @@ VtkVolume read_vti(const std::string& path, const Progress& progress)
   reader->SetParserErrorObserver(listener.command());
   reader->SetFileName(path.c_str());
   reader->UpdateInformation();
-  stop_on_error(path, listener);
+  stop_on_error(path, listener, trap);
 
   vtkInformation* info = reader->GetOutputInformation(0);
   int extent[6] = { 0, -1, 0, -1, 0, -1 };
@@ -223,7 +272,7 @@ VtkVolume read_vti(const std::string& path, const Progress& progress)
   check_promise(path, voxels, static_cast<double>(length) * (lzma ? 10000 : packed ? 1100 : 8));
 
   reader->Update();
-  stop_on_error(path, listener);
+  stop_on_error(path, listener, trap);
   VtkVolume volume;
   volume.format = "VTK XML image data";
   volume.image = reader->GetOutput();
@@ -233,12 +282,13 @@ VtkVolume read_vti(const std::string& path, const Progress& progress)
 
 VtkVolume read_legacy(const std::string& path, const Progress& progress)
 {
+  MessageTrap trap;
   Listener listener(progress);
   vtkNew<vtkStructuredPointsReader> reader;
   listener.listen(reader);
   reader->SetFileName(path.c_str());
   reader->Update();
-  stop_on_error(path, listener);
+  stop_on_error(path, listener, trap);
   VtkVolume volume;
   volume.format = "legacy VTK";
   volume.image = vtkSmartPointer<vtkImageData>::New();

@@ -677,6 +677,9 @@ TEST(VtiReader, BadFiles)
   broken.replace(broken.find("</PointData>"), 12, "</PointMuta>");
   expect_error(save(here + "e.vti", broken), "VTK cannot read it");
   expect_error(save(here + "f.vti", vti("0 4 0 3 0 3", array)), "");
+  std::string untyped = vti("0 4 0 3 0 2", array);
+  untyped.replace(untyped.find("type=\"Int16\""), 12, "");
+  expect_error(save(here + "g.vti", untyped), "VTK cannot read it"); // told by no reader's event
 }
 
 TEST(LegacyReader, AsciiAndBinary)
