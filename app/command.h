@@ -32,10 +32,17 @@ public:
     , Status(status)
   {
   }
+  /// A message that is already "PLACE: what is wrong: what to do".
+  explicit Failure(const std::string& message, ExitStatus status = Failed)
+    : std::runtime_error(message)
+    , Status(status)
+  {
+  }
   ExitStatus Status;
 };
 
 // Each subcommand (add_NAME, declared below) declares its options on the program and the callback that runs it; one file each.
 // A callback returns when it is done and throws Failure when it cannot do its work.
+void add_info(CLI::App& program);
 
 }

@@ -4,6 +4,7 @@ find_package(Threads REQUIRED)
 find_package(glm REQUIRED)
 find_package(TBB REQUIRED COMPONENTS tbb)
 find_package(hwy REQUIRED)
+find_package(ZLIB REQUIRED)
 
 find_package(MPI QUIET COMPONENTS C) # VTK's Debian package names MPI::MPI_C without finding it
 find_package(VTK 9.1 REQUIRED COMPONENTS

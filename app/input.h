@@ -1,0 +1,45 @@
+// What a subcommand's INPUT stands for: a file, or a sample that is made on the spot.
+#pragma once
+
+#include "vtkSmartPointer.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+class vtkImageData;
+
+namespace brume::app
+{
+
+/// A volume, and what is known of it.
+struct Input
+{
+  vtkSmartPointer<vtkImageData> image; ///< with point scalars; at least one voxel
+  std::string name;        ///< for people: the file's name without its folder, or the sample's
+  std::string format;      ///< "NIfTI-1 (gzip)", "sample", …
+  std::string length_unit; ///< of spacing and origin: "mm", …; empty where unknown
+  std::string value_unit;  ///< "HU", …; empty where unknown
+  bool patient_axes = false; ///< the world is RAS+: x to the patient's right, y front, z up
+  std::vector<std::string> messages; ///< what the reader settled by itself, one line each
+};
+
+/// Opens INPUT as the user wrote it: `sample:NAME`, or a file. `progress` is called now and then
+/// with the part that is done, in [0, 1]. Throws Failure: with status BadCall for a sample that
+/// does not exist, Failed for a file that cannot be read.
+Input open_input(const std::string& spec, const std::function<void(double)>& progress = {});
+
+/// The same with a bar on the terminal for what takes over a second, unless `quiet`.
+Input open_input_with_bar(const std::string& spec, bool quiet);
+
+/// A sample: what `sample:NAME` makes.
+struct Sample
+{
+  const char* name;
+  const char* summary; ///< one line
+  Input (*make)(const std::function<void(double)>& progress);
+};
+/// Every sample, in the order in which they are listed.
+const std::vector<Sample>& samples();
+
+}

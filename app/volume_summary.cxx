@@ -1,0 +1,144 @@
+#include "volume_summary.h"
+
+#include "vtkDataArray.h"
+#include "vtkImageData.h"
+#include "vtkPointData.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <type_traits>
+
+namespace brume::app
+{
+
+namespace
+{
+
+template <typename T>
+void summarize_values(const T* values, vtkIdType count, int step, int bins, VolumeSummary& s)
+{
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  // Sums of differences from a value of the data keep their digits where the mean is far from 0.
+  double pivot = 0;
+  double sum = 0;
+  double squares = 0;
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    const double v = static_cast<double>(values[i * step]);
+    if (!std::isfinite(v))
+    {
+      ++s.non_finite;
+      continue;
+    }
+    if (s.finite++ == 0)
+    {
+      pivot = v;
+    }
+    low = std::min(low, v);
+    high = std::max(high, v);
+    sum += v - pivot;
+    squares += (v - pivot) * (v - pivot);
+  }
+  if (s.finite == 0)
+  {
+    return;
+  }
+  const double n = static_cast<double>(s.finite);
+  s.minimum = low;
+  s.maximum = high;
+  s.mean = pivot + sum / n;
+  s.standard_deviation = std::sqrt(std::max(0.0, squares / n - (sum / n) * (sum / n)));
+
+  constexpr int Fine = 65536;
+  // Halves: the range of doubles may be wider than a double.
+  const double half_range = high / 2 - low / 2;
+  const bool whole = std::is_integral<T>::value && high - low < Fine;
+  const auto bin_of = [&](double v, int n_bins)
+  {
+    const double place = half_range > 0 ? (v / 2 - low / 2) / half_range : 0;
+    return std::min(n_bins - 1, static_cast<int>(place * n_bins));
+  };
+  // Bins of whole numbers hold equally many of them: others would show a comb that is not there.
+  s.bin_width = whole ? std::ceil((high - low + 1) / bins) : 2 * (half_range / bins);
+  const int n_bins = high == low ? 1 : whole ? static_cast<int>((high - low) / s.bin_width) + 1 : bins;
+  std::vector<std::uint64_t> fine(Fine, 0);
+  std::vector<double> least(Fine, high); // of the values in each fine bin
+  s.histogram.assign(n_bins, 0);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    const double v = static_cast<double>(values[i * step]);
+    if (std::isfinite(v))
+    {
+      const int bin = whole ? static_cast<int>(v - low) : bin_of(v, Fine);
+      ++fine[bin];
+      least[bin] = std::min(least[bin], v);
+      ++s.histogram[whole ? static_cast<int>((v - low) / s.bin_width) : bin_of(v, n_bins)];
+    }
+  }
+  for (int percent : percents())
+  {
+    // The smallest value that at least so many percent of the values do not exceed.
+    const double wanted = std::max(1.0, std::ceil(percent / 100.0 * n));
+    double below = 0;
+    int bin = 0;
+    while (bin < Fine - 1 && (below += static_cast<double>(fine[bin])) < wanted)
+    {
+      ++bin;
+    }
+    s.percentiles.push_back(least[bin]);
+  }
+}
+
+}
+
+const std::vector<int>& percents()
+{
+  static const std::vector<int> list{ 1, 5, 25, 50, 75, 95, 99 };
+  return list;
+}
+
+VolumeSummary summarize(vtkImageData* image, int component, int bins)
+{
+  VolumeSummary summary;
+  vtkDataArray* scalars = image->GetPointData()->GetScalars();
+  const int step = scalars->GetNumberOfComponents();
+  switch (scalars->GetDataType())
+  {
+    vtkTemplateMacro(
+      summarize_values(static_cast<const VTK_TT*>(scalars->GetVoidPointer(0)) + component,
+        scalars->GetNumberOfTuples(), step, bins, summary));
+  }
+  return summary;
+}
+
+std::string draw_histogram(const VolumeSummary& summary, int width)
+{
+  const std::size_t bins = summary.histogram.size();
+  if (bins == 0)
+  {
+    return {};
+  }
+  const std::uint64_t most = *std::max_element(summary.histogram.begin(), summary.histogram.end());
+  const double full = std::log1p(static_cast<double>(most));
+  const int room = std::max(8, width - 28);
+  std::string text;
+  for (std::size_t i = 0; i < bins; ++i)
+  {
+    const double start = summary.minimum + static_cast<double>(i) * summary.bin_width;
+    const std::uint64_t count = summary.histogram[i];
+    const int bar = count == 0
+      ? 0
+      : std::max(1, static_cast<int>(std::lround(room * std::log1p(static_cast<double>(count)) / full)));
+    char label[64];
+    std::snprintf(label, sizeof(label), "%12.5g |", start);
+    char number[32];
+    std::snprintf(number, sizeof(number), "%llu", static_cast<unsigned long long>(count));
+    text += label + std::string(bar, '#') + (count ? " " : "") + (count ? number : "") + "\n";
+  }
+  return text;
+}
+
+}

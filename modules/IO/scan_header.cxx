@@ -1,0 +1,133 @@
+#include "scan_header.h"
+
+#include "file_access.h"
+
+#include <limits>
+#include <map>
+#include <stdexcept>
+
+namespace brume::io
+{
+
+int scalar_size(Scalar type)
+{
+  switch (type)
+  {
+    case Scalar::Int8:
+    case Scalar::UInt8:
+      return 1;
+    case Scalar::Int16:
+    case Scalar::UInt16:
+      return 2;
+    case Scalar::Int32:
+    case Scalar::UInt32:
+    case Scalar::Float32:
+      return 4;
+    default:
+      return 8;
+  }
+}
+
+std::uint64_t ScanHeader::voxels() const
+{
+  return static_cast<std::uint64_t>(dimensions[0]) * dimensions[1] * dimensions[2];
+}
+
+std::uint64_t ScanHeader::bytes() const
+{
+  return voxels() * components * scalar_size(scalar);
+}
+
+void fail(const std::string& path, const std::string& wrong, const std::string& remedy)
+{
+  throw std::runtime_error(path + ": " + wrong + ": " + remedy);
+}
+
+void check_header(const ScanHeader& header)
+{
+  const char* remedy = "check that the file is whole, or export the volume again";
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const std::int64_t n = header.dimensions[axis];
+    if (n < 1 || n > std::numeric_limits<std::int32_t>::max())
+    {
+      fail(header.path,
+        "the header gives " + std::to_string(n) + " voxels along axis " + std::to_string(axis + 1),
+        remedy);
+    }
+  }
+  if (header.components < 1 || header.components > 64)
+  {
+    fail(header.path, "the header gives " + std::to_string(header.components) +
+        " numbers a voxel", "Brume reads 1 to 64");
+  }
+  const std::string size = std::to_string(header.dimensions[0]) + " x " +
+    std::to_string(header.dimensions[1]) + " x " + std::to_string(header.dimensions[2]);
+  // The product is taken in floating point first: it cannot wrap around there.
+  const double numbers = static_cast<double>(header.dimensions[0]) * header.dimensions[1] *
+    header.dimensions[2] * header.components;
+  if (numbers * scalar_size(header.scalar) > 1e15)
+  {
+    fail(header.path, "the header promises " + size + " voxels, more than any machine holds",
+      remedy);
+  }
+
+  const std::uint64_t promised = header.bytes();
+  const std::uint64_t parts = header.parts.size();
+  if (parts == 0 || promised % parts != 0)
+  {
+    fail(header.path, "the header does not name as many data files as the volume needs", remedy);
+  }
+  for (const DataPart& part : header.parts)
+  {
+    const std::uint64_t length = file_length(header.path, part.path);
+    const std::uint64_t start = header.offset_is_inflated ? 0 : part.offset;
+    const std::uint64_t available = length > start ? length - start : 0;
+    std::uint64_t most = available; // numbers' bytes that this many bytes of file can hold
+    if (header.encoding == Encoding::Deflated)
+    {
+      most = available > (std::uint64_t(1) << 50) ? promised : available * 1032;
+    }
+    else if (header.encoding == Encoding::Text)
+    {
+      most = (available + 1) / 2 * scalar_size(header.scalar);
+    }
+    if (most < promised / parts)
+    {
+      fail(part.path == header.path ? header.path : header.path + ": " + part.path,
+        "the file is cut short: the header promises " + std::to_string(promised / parts) +
+          " bytes of voxels (" + size + "), the file has room for " + std::to_string(most),
+        "copy or download it again");
+    }
+  }
+}
+
+void convert_to_millimetres(ScanHeader& header, const std::string& unit)
+{
+  static const std::map<std::string, double> factors{ { "mm", 1 }, { "millimeter", 1 },
+    { "millimetre", 1 }, { "millimeters", 1 }, { "um", 1e-3 }, { "micron", 1e-3 },
+    { "microns", 1e-3 }, { "micrometer", 1e-3 }, { "micrometre", 1e-3 }, { "\u00b5m", 1e-3 },
+    { "cm", 10 }, { "centimeter", 10 }, { "centimetre", 10 }, { "m", 1000 }, { "meter", 1000 },
+    { "metre", 1000 } };
+  const auto found = factors.find(unit);
+  if (!header.patient || found == factors.end())
+  {
+    header.length_unit = found != factors.end() && found->second == 1 ? "mm" : unit;
+    if (header.patient)
+    {
+      header.messages.push_back("lengths are in \"" + unit + "\" and are not converted to mm");
+    }
+    return;
+  }
+  header.length_unit = "mm";
+  if (found->second != 1)
+  {
+    for (double& a : header.affine)
+    {
+      a *= found->second;
+    }
+    header.messages.push_back("lengths converted from " + unit + " to mm");
+  }
+}
+
+}

@@ -1,0 +1,103 @@
+// What the header of a scan says, freed of the format that says it. The parsers of NIfTI, MetaImage
+// and NRRD fill one; the voxel reader and vtkBrumeImageReader consume it. Private to this module.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace brume::io
+{
+
+/// The type of one stored number.
+enum class Scalar
+{
+  Int8,
+  UInt8,
+  Int16,
+  UInt16,
+  Int32,
+  UInt32,
+  Int64,
+  UInt64,
+  Float32,
+  Float64
+};
+/// Bytes of one number of that type: 1 to 8.
+int scalar_size(Scalar type);
+
+/// How the numbers lie in the data file.
+enum class Encoding
+{
+  Raw,      ///< binary, as they are
+  Deflated, ///< binary in a gzip or zlib stream
+  Text      ///< decimal numbers between blanks
+};
+
+/// One stretch of data: a file and where its numbers begin.
+struct DataPart
+{
+  std::string path;
+  std::uint64_t offset = 0; ///< bytes from the file's beginning (into the plain bytes if `inflated_offset`)
+};
+
+struct ScanHeader
+{
+  std::string path;   ///< the file as the user named it; errors begin with it
+  std::string format; ///< for people: "NIfTI-1 (gzip)", "MetaImage", …
+  std::string array = "values"; ///< the name of the scalars
+
+  std::array<std::int64_t, 3> dimensions{ { 0, 0, 0 } }; ///< voxels, x fastest
+  std::int64_t components = 1;                           ///< numbers a voxel
+  bool planar = false; ///< components lie one volume after another, rather than voxel by voxel
+  Scalar scalar = Scalar::UInt8;
+  bool swap_bytes = false; ///< the file's byte order is not this machine's
+  Encoding encoding = Encoding::Raw;
+  /// The offset of the data counts inflated bytes (NIfTI: header and data share one gzip stream),
+  /// not bytes of the file (NRRD: a plain header, then a gzip stream).
+  bool offset_is_inflated = false;
+  std::vector<DataPart> parts; ///< one, or several of equal length that follow on each other
+  bool more_follows = false;   ///< the stream holds more volumes, which are left unread
+
+  /// Voxel index to world, row-major 3 × 4: world = affine · (i, j, k, 1).
+  std::array<double, 12> affine{ { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0 } };
+  /// The world axes are the patient's: x to the right, y to the front, z up (RAS+).
+  bool patient = false;
+
+  double slope = 1;         ///< value = slope · stored + intercept
+  double intercept = 0;     ///< in units of the value
+  std::string length_unit;  ///< "mm", "um", …; empty where the format does not say
+  std::string value_unit;   ///< "HU"; empty where the format does not say
+  std::vector<std::string> messages; ///< what the reader settled by itself, one line each
+
+  std::uint64_t voxels() const;
+  std::uint64_t bytes() const; ///< of the volume that is read: voxels · components · scalar size
+};
+
+/// Throws std::runtime_error("PATH: wrong: remedy").
+[[noreturn]] void fail(const std::string& path, const std::string& wrong, const std::string& remedy);
+
+/// Checks what every format needs: dimensions from 1 to 2^31 − 1, 1 to 64 components, a total that
+/// fits in the address space, and data files that are there and long enough to hold what the header
+/// promises (deflate packs at most 1032 : 1, a number in text takes two bytes). Throws as fail()
+/// does; nothing of the volume's size has been allocated before it returns.
+void check_header(const ScanHeader& header);
+
+/// Brings a length unit to millimetres in the affine of a header that carries patient axes, so that
+/// the world of a scan is always RAS+ in mm. `unit` may be um, mm, cm, m (and their long names);
+/// any other is kept and named in a message.
+void convert_to_millimetres(ScanHeader& header, const std::string& unit);
+
+/// Each throws std::runtime_error as fail() does when the file is not what its format asks for.
+ScanHeader read_nifti_header(const std::string& path);
+ScanHeader read_meta_header(const std::string& path);
+ScanHeader read_nrrd_header(const std::string& path);
+
+/// Legacy VTK structured points with one array of SCALARS right behind the header, as nearly every
+/// writer makes them: VTK 9.1 fills what such a file lacks with whatever memory holds, and says
+/// nothing. Returns a header without parts for other layouts (fields, colour scalars, bits), which
+/// are left to VTK's reader once their dimensions have been checked.
+ScanHeader read_legacy_header(const std::string& path);
+
+}

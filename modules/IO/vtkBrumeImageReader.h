@@ -1,0 +1,99 @@
+/**
+ * @class vtkBrumeImageReader
+ * @brief Reads a scan or any other volume on a regular grid, upright and to scale.
+ *
+ * Opens NIfTI-1, NIfTI-2 and Analyze 7.5 (.nii, .nii.gz, .hdr with .img), MetaImage (.mha, .mhd),
+ * NRRD (.nrrd, .nhdr), VTK XML image data (.vti) and legacy VTK structured points (.vtk). The
+ * format is found in the file's content; its name counts only where the content says nothing.
+ *
+ * The output is one vtkImageData with point scalars. Spacing, origin and direction matrix are set,
+ * so that world = origin + direction * (spacing ∘ ijk). Where the format tells how the patient
+ * lies, the world is RAS+ in millimetres: x grows to the patient's right, y to the front, z
+ * upwards; see GetPatientAxes(). The direction matrix is always a rotation: a left-handed file has
+ * one index axis reversed in memory (docs/user/input.md tells which, and gives each format's rule).
+ * Values are those the file means: a slope and intercept in the header are applied, and the
+ * scalars are then float (double for stored integers of 32 bits or more and for doubles).
+ *
+ * Nothing of the volume's size is allocated before the header has been checked against the length
+ * of the file. When something is wrong, the output is empty, ErrorEvent is invoked, and
+ * GetErrorMessage() holds one line. No message of an inner reader reaches the standard error
+ * stream; with an observer of ErrorEvent on this object, nothing at all does. To that end,
+ * vtkOutputWindow's instance and vtkLogger's verbosity on standard error are replaced while VTK's
+ * own readers run (.vti, and rare layouts of .vtk): do not read those in two threads at once.
+ */
+#ifndef vtkBrumeImageReader_h
+#define vtkBrumeImageReader_h
+
+#include "vtkBrumeIOModule.h"
+#include "vtkImageAlgorithm.h"
+
+#include <memory>
+
+class VTKBRUMEIO_EXPORT vtkBrumeImageReader : public vtkImageAlgorithm
+{
+public:
+  static vtkBrumeImageReader* New();
+  vtkTypeMacro(vtkBrumeImageReader, vtkImageAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The file to read: for a pair of header and data (.hdr/.img, .mhd, .nhdr) the header; of
+   * .hdr/.img either. Default: none.
+   */
+  vtkSetFilePathMacro(FileName);
+  vtkGetFilePathMacro(FileName);
+  ///@}
+
+  /**
+   * What went wrong in the last update, "FILE: what is wrong: what to do", without a line end;
+   * empty when nothing did. Valid until the next update.
+   */
+  const char* GetErrorMessage() const;
+
+  ///@{
+  /**
+   * What the reader settled by itself in the last update and the user may want to know, one line
+   * each: "a series of 4 volumes; the first is taken". GetMessage returns null beyond the last.
+   */
+  int GetNumberOfMessages() const;
+  const char* GetMessage(int index) const;
+  ///@}
+
+  /** The format, for people: "NIfTI-1 (gzip)". Empty before an update. */
+  const char* GetFormat() const;
+
+  /** Unit of spacing and origin: "mm", or as the format names it; empty where it names none. */
+  const char* GetLengthUnit() const;
+
+  /** Unit of the values: "HU" for a CT that says so, or as the format names it; empty if unknown. */
+  const char* GetValueUnit() const;
+
+  /**
+   * Whether the file told how the patient lies, so that the world's axes are the patient's (RAS+,
+   * mm). Otherwise the axes are the file's own.
+   */
+  bool GetPatientAxes() const;
+
+  /** Whether a file's content is of a format that this class reads. Never reports an error. */
+  static bool CanReadFile(const char* path);
+
+protected:
+  vtkBrumeImageReader();
+  ~vtkBrumeImageReader() override;
+  int RequestInformation(
+    vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector) override;
+  int RequestData(
+    vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector) override;
+
+  char* FileName = nullptr;
+
+private:
+  vtkBrumeImageReader(const vtkBrumeImageReader&) = delete;
+  void operator=(const vtkBrumeImageReader&) = delete;
+
+  struct Internals;
+  std::unique_ptr<Internals> Internal;
+};
+
+#endif

@@ -1,0 +1,300 @@
+#include "vtk_volume_reader.h"
+
+#include "file_access.h"
+#include "header_text.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkBitArray.h"
+#include "vtkCallbackCommand.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkExecutive.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkLogger.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkOutputWindow.h"
+#include "vtkPointData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkStructuredPoints.h"
+#include "vtkStructuredPointsReader.h"
+#include "vtkXMLImageDataReader.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace brume::io
+{
+
+namespace
+{
+
+const char* const Remedy = "check that the file is whole, or write it again";
+
+/// Keeps what a VTK reader reports from the standard error stream, and remembers the first line.
+class Listener
+{
+public:
+  explicit Listener(Progress progress)
+    : progress_(std::move(progress))
+  {
+    command_->SetClientData(this);
+    command_->SetCallback(&Listener::hear);
+  }
+  void listen(vtkAlgorithm* reader)
+  {
+    for (vtkObject* object : { static_cast<vtkObject*>(reader),
+           static_cast<vtkObject*>(reader->GetExecutive()) })
+    {
+      object->AddObserver(vtkCommand::ErrorEvent, command_);
+      object->AddObserver(vtkCommand::WarningEvent, command_);
+    }
+    reader->AddObserver(vtkCommand::ProgressEvent, command_);
+  }
+  vtkCommand* command() { return command_; }
+  bool stopped() const { return stopped_; }
+  /// The first error's own words; empty when there was none.
+  const std::string& error() const { return error_; }
+
+private:
+  static void hear(vtkObject* caller, unsigned long event, void* self, void* data)
+  {
+    Listener& listener = *static_cast<Listener*>(self);
+    vtkAlgorithm* reader = vtkAlgorithm::SafeDownCast(caller);
+    if (event == vtkCommand::ErrorEvent && listener.error_.empty())
+    {
+      // "ERROR: In FILE, line N\nvtkClass (0x…): words\n\n"
+      std::string text = data ? static_cast<const char*>(data) : "";
+      const std::size_t end_of_place = text.find("): ");
+      text = end_of_place == std::string::npos ? text : text.substr(end_of_place + 3);
+      std::replace(text.begin(), text.end(), '\n', ' ');
+      listener.error_ = trimmed(text);
+      if (listener.error_.empty())
+      {
+        listener.error_ = "unnamed error";
+      }
+    }
+    else if (event == vtkCommand::ProgressEvent && reader && listener.progress_ &&
+      !listener.progress_(reader->GetProgress()))
+    {
+      listener.stopped_ = true;
+      reader->SetAbortExecute(1);
+    }
+  }
+
+  Progress progress_;
+  std::string error_;
+  bool stopped_ = false;
+  vtkNew<vtkCallbackCommand> command_;
+};
+
+/// Takes, while it lives, the place of VTK's window of messages: helper objects of VTK's readers
+/// (vtkXMLDataElement) report errors on themselves, where no observer of the reader hears them.
+class MessageTrap
+{
+public:
+  MessageTrap()
+    : before_(vtkOutputWindow::GetInstance())
+    , verbosity_(vtkLogger::GetCurrentVerbosityCutoff())
+  {
+    vtkNew<Window> window;
+    window->trap = this;
+    vtkOutputWindow::SetInstance(window);
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+  }
+  ~MessageTrap()
+  {
+    vtkLogger::SetStderrVerbosity(verbosity_);
+    vtkOutputWindow::SetInstance(before_);
+  }
+  MessageTrap(const MessageTrap&) = delete;
+  MessageTrap& operator=(const MessageTrap&) = delete;
+  bool error() const { return error_; }
+
+private:
+  class Window : public vtkOutputWindow
+  {
+  public:
+    static Window* New() { VTK_STANDARD_NEW_BODY(Window); }
+    void DisplayText(const char*) override {}
+    void DisplayErrorText(const char*) override { trap->error_ = true; }
+    void DisplayWarningText(const char*) override {}
+    void DisplayGenericWarningText(const char*) override {}
+    void DisplayDebugText(const char*) override {}
+    MessageTrap* trap = nullptr;
+  };
+
+  vtkSmartPointer<vtkOutputWindow> before_;
+  vtkLogger::Verbosity verbosity_;
+  bool error_ = false;
+};
+
+/// Voxels of an extent, or −1 for one that is empty or that no image can have.
+double voxels_of(const int extent[6])
+{
+  double voxels = 1;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double n = static_cast<double>(extent[2 * axis + 1]) - extent[2 * axis] + 1;
+    if (n < 1 || n > std::numeric_limits<int>::max())
+    {
+      return -1;
+    }
+    voxels *= n;
+  }
+  return voxels;
+}
+
+void check_promise(const std::string& path, double promised, double available)
+{
+  if (promised > available)
+  {
+    fail(path, "the file is cut short, or its header is wrong: it promises more voxels than the file "
+               "has room for", "copy or download it again");
+  }
+}
+
+/// Checks that an image carries numbers on its points, as many as there are points, and takes the
+/// first such array as its scalars when none is marked.
+void settle_scalars(VtkVolume& volume, const std::string& path)
+{
+  vtkImageData* image = volume.image;
+  vtkPointData* points = image->GetPointData();
+  vtkDataArray* scalars = points->GetScalars();
+  for (int i = 0; !scalars && i < points->GetNumberOfArrays(); ++i)
+  {
+    scalars = points->GetArray(i);
+    if (scalars && scalars->GetName())
+    {
+      points->SetActiveScalars(scalars->GetName());
+      if (points->GetNumberOfArrays() > 1)
+      {
+        volume.messages.push_back(
+          std::string("no array is marked as scalars; \"") + scalars->GetName() + "\" is taken");
+      }
+    }
+    else if (scalars)
+    {
+      points->SetScalars(scalars);
+    }
+  }
+  if (!scalars)
+  {
+    const bool cells = image->GetCellData()->GetNumberOfArrays() > 0;
+    fail(path, cells ? "holds numbers in its cells only" : "holds no numbers",
+      cells ? "convert them to point data (vtkCellDataToPointData)" : Remedy);
+  }
+  if (vtkBitArray::SafeDownCast(scalars))
+  {
+    fail(path, "its scalars are single bits", "save them as unsigned char");
+  }
+  if (scalars->GetNumberOfTuples() != image->GetNumberOfPoints() ||
+    image->GetNumberOfPoints() < 1 || scalars->GetNumberOfComponents() < 1)
+  {
+    fail(path, "holds " + std::to_string(scalars->GetNumberOfTuples()) + " values for " +
+        std::to_string(image->GetNumberOfPoints()) + " points", Remedy);
+  }
+}
+
+std::string read_range(const std::string& path, std::uint64_t from, std::size_t count)
+{
+  std::string text(count, '\0');
+  ByteStream stream(path, path, from, ByteStream::Plain);
+  text.resize(stream.read(&text[0], count));
+  return text;
+}
+
+void stop_on_error(const std::string& path, const Listener& listener, const MessageTrap& trap)
+{
+  if (listener.stopped())
+  {
+    fail(path, "reading was interrupted", "run it again");
+  }
+  if (!listener.error().empty())
+  {
+    fail(path, "VTK cannot read it (" + listener.error() + ")", Remedy);
+  }
+  if (trap.error())
+  {
+    fail(path, "VTK cannot read it (its XML is not what the format asks for)", Remedy);
+  }
+}
+
+}
+
+VtkVolume read_vti(const std::string& path, const Progress& progress)
+{
+  const std::uint64_t length = file_length(path, path);
+  const std::string head = read_range(path, 0, 1 << 16);
+  const std::uint64_t tail_from = length > 256 ? length - 256 : 0;
+  const std::string tail = trimmed(read_range(path, tail_from, 256));
+  const std::size_t root = head.find("<VTKFile");
+  const std::size_t root_end = head.find('>', root);
+  const std::string opening =
+    root == std::string::npos ? std::string() : head.substr(root, root_end - root);
+  if (opening.find("ImageData") == std::string::npos ||
+    opening.find("PImageData") != std::string::npos)
+  {
+    fail(path, "is a VTK XML file, but of no image data", "save the volume as vtkImageData (.vti)");
+  }
+  const std::string closing = "</VTKFile>";
+  if (tail.size() < closing.size() ||
+    tail.compare(tail.size() - closing.size(), closing.size(), closing) != 0)
+  {
+    fail(path, "the file is cut short: it does not end with </VTKFile>", "copy or download it again");
+  }
+
+  MessageTrap trap;
+  Listener listener(progress);
+  vtkNew<vtkXMLImageDataReader> reader;
+  listener.listen(reader);
+  reader->SetReaderErrorObserver(listener.command());
+  reader->SetParserErrorObserver(listener.command());
+  reader->SetFileName(path.c_str());
+  reader->UpdateInformation();
+  stop_on_error(path, listener, trap);
+
+  vtkInformation* info = reader->GetOutputInformation(0);
+  int extent[6] = { 0, -1, 0, -1, 0, -1 };
+  if (info->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
+  {
+    info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent);
+  }
+  const double voxels = voxels_of(extent);
+  if (voxels < 0)
+  {
+    fail(path, "its extent holds no voxels", Remedy);
+  }
+  // What a byte of file can hold at most: text (a double in two), deflate, LZMA.
+  const bool lzma = opening.find("LZMA") != std::string::npos;
+  const bool packed = opening.find("compressor") != std::string::npos;
+  check_promise(path, voxels, static_cast<double>(length) * (lzma ? 10000 : packed ? 1100 : 8));
+
+  reader->Update();
+  stop_on_error(path, listener, trap);
+  VtkVolume volume;
+  volume.format = "VTK XML image data";
+  volume.image = reader->GetOutput();
+  settle_scalars(volume, path);
+  return volume;
+}
+
+VtkVolume read_legacy(const std::string& path, const Progress& progress)
+{
+  MessageTrap trap;
+  Listener listener(progress);
+  vtkNew<vtkStructuredPointsReader> reader;
+  listener.listen(reader);
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  stop_on_error(path, listener, trap);
+  VtkVolume volume;
+  volume.format = "legacy VTK";
+  volume.image = vtkSmartPointer<vtkImageData>::New();
+  volume.image->ShallowCopy(reader->GetOutput());
+  settle_scalars(volume, path);
+  return volume;
+}
+
+}

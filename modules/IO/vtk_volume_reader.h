@@ -1,0 +1,27 @@
+// VTK's own formats, through VTK's own readers, with their errors caught and what they do not
+// check checked. Private to this module.
+#pragma once
+
+#include "voxel_reader.h"
+
+#include "vtkSmartPointer.h"
+
+class vtkImageData;
+
+namespace brume::io
+{
+
+struct VtkVolume
+{
+  vtkSmartPointer<vtkImageData> image; ///< with scalars on its points, as many as it has points
+  std::string format;
+  std::vector<std::string> messages;
+};
+
+/// VTK XML image data (.vti). Throws fail().
+VtkVolume read_vti(const std::string& path, const Progress& progress);
+/// Legacy VTK structured points (.vtk) of the layouts that read_legacy_header() leaves to VTK. Throws
+/// fail().
+VtkVolume read_legacy(const std::string& path, const Progress& progress);
+
+}
