@@ -1,0 +1,137 @@
+#include "data-generators/painted_volume.h"
+
+#include "data-generators/shaping.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
+
+namespace brume
+{
+
+namespace
+{
+constexpr int cells = 40; ///< along each axis
+/// How far a shape is kept beyond the reach that its distance gives: an ellipsoid's distance is
+/// right at its surface only.
+constexpr double caution = 1.5;
+}
+
+PaintedVolume::PaintedVolume(const Box& box, double background, double edge)
+  : m_box(box)
+  , m_background(background)
+  , m_edge(edge)
+{
+}
+
+void PaintedVolume::paint(Distance distance, double value)
+{
+  paint(std::move(distance), { Layer(0.0, value) });
+}
+
+void PaintedVolume::paint(Distance distance, std::vector<Layer> layers)
+{
+  m_shapes.push_back({ std::move(distance), std::move(layers) });
+}
+
+double PaintedVolume::blend(const Shape& shape, int first, int last, bool covered,
+  const glm::dvec3& place, double below) const
+{
+  double depth = 0.0;
+  const auto layer_value = [&](const Layer& layer)
+  { return layer.texture ? layer.texture(place, depth) : layer.value; };
+
+  if (covered && last == first + 1 && !shape.layers[first].texture)
+  {
+    return shape.layers[first].value;
+  }
+  depth = -shape.distance(place);
+  for (int l = first; l < last; ++l)
+  {
+    const Layer& layer = shape.layers[l];
+    const double cover = covered && l == first
+      ? 1.0
+      : smooth_ramp(depth - layer.depth, -0.5 * m_edge, 0.5 * m_edge);
+    if (cover > 0.0)
+    {
+      below = mix(below, layer_value(layer), cover);
+    }
+  }
+  return below;
+}
+
+std::vector<PaintedVolume::Entry> PaintedVolume::entries_of(
+  const glm::dvec3& centre, double radius) const
+{
+  const double reach = caution * (radius + 0.5 * m_edge);
+  std::vector<Entry> entries;
+  for (std::size_t s = 0; s < m_shapes.size(); ++s)
+  {
+    const std::vector<Layer>& layers = m_shapes[s].layers;
+    const double depth = -m_shapes[s].distance(centre);
+    std::size_t first = 0;
+    std::size_t last = 0;
+    bool covered = false;
+    for (std::size_t l = 0; l < layers.size() && depth > layers[l].depth - reach; ++l)
+    {
+      last = l + 1;
+      if (depth > layers[l].depth + reach)
+      {
+        first = l;
+        covered = true;
+      }
+    }
+    if (covered)
+    {
+      entries.clear(); // nothing shows of what lies beneath
+    }
+    if (last > first)
+    {
+      entries.push_back({ static_cast<std::uint16_t>(s), static_cast<std::uint8_t>(first),
+        static_cast<std::uint8_t>(last), covered });
+    }
+  }
+  return entries;
+}
+
+void PaintedVolume::finish()
+{
+  const glm::dvec3 size = (m_box.upper - m_box.lower) / static_cast<double>(cells);
+  const double radius = 0.5 * glm::length(size);
+  m_cells.resize(static_cast<std::size_t>(cells) * cells * cells);
+  tbb::parallel_for(0, cells * cells * cells,
+    [&](int c)
+    {
+      const glm::dvec3 index(c % cells, (c / cells) % cells, c / (cells * cells));
+      m_cells[c] = entries_of(m_box.lower + (index + 0.5) * size, radius);
+    });
+}
+
+double PaintedVolume::value(const glm::dvec3& place) const
+{
+  int index[3];
+  for (int a = 0; a < 3; ++a)
+  {
+    const double t = (place[a] - m_box.lower[a]) / (m_box.upper[a] - m_box.lower[a]);
+    index[a] = static_cast<int>(std::clamp(t * cells, 0.0, cells - 1.0));
+  }
+  double result = m_background;
+  for (const Entry& e : m_cells[(index[2] * cells + index[1]) * cells + index[0]])
+  {
+    result = blend(m_shapes[e.shape], e.first, e.last, e.covered, place, result);
+  }
+  return result;
+}
+
+double PaintedVolume::value_by_all(const glm::dvec3& place) const
+{
+  double result = m_background;
+  for (const Shape& s : m_shapes)
+  {
+    result = blend(s, 0, static_cast<int>(s.layers.size()), false, place, result);
+  }
+  return result;
+}
+
+}
