@@ -22,8 +22,10 @@ using glm::dvec3;
 double cerebellum(const dvec3& place)
 {
   const dvec3 p = mirrored(place);
-  return smooth_union(ellipsoid_distance(p, dvec3(22.0, -54.0, -4.0), dvec3(27.0, 27.0, 18.0)),
-    ellipsoid_distance(p, dvec3(0.0, -54.0, -2.0), dvec3(12.0, 22.0, 16.0)), 6.0);
+  const double d =
+    smooth_union(ellipsoid_distance(p, dvec3(21.0, -54.0, -4.0), dvec3(31.0, 31.0, 20.0)),
+      ellipsoid_distance(p, dvec3(0.0, -54.0, -2.0), dvec3(12.0, 22.0, 16.0)), 6.0);
+  return smooth_intersection(d, cranial_cavity(p) + 3.0, 4.0);
 }
 
 double ventricles(const dvec3& place)
@@ -101,46 +103,35 @@ PaintedVolume::Texture leaves(std::uint32_t seed)
   };
 }
 
-double arteries(const dvec3& place)
+struct Vessel
 {
-  const dvec3 p = mirrored(place);
-  // Inner carotid, up the neck and through its bend at the skull's base.
-  double d = tube_distance(p,
-    { dvec3(26.0, 2.0, -170.0), dvec3(25.0, 0.0, -100.0), dvec3(27.0, -4.0, -60.0),
-      dvec3(25.0, 2.0, -26.0) }, 2.9);
-  d = std::min(d, tube_distance(p,
-    { dvec3(25.0, 2.0, -26.0), dvec3(15.0, 8.0, -8.0), dvec3(12.0, 20.0, 1.0),
-      dvec3(12.0, 24.0, 8.0), dvec3(12.0, 17.0, 13.0) }, 2.3));
-  // Middle cerebral artery and its branches over the island.
-  d = std::min(d, tube_distance(p,
-    { dvec3(12.0, 17.0, 13.0), dvec3(24.0, 19.0, 16.0), dvec3(40.0, 15.0, 19.0) }, 1.7));
-  d = std::min(d, tube_distance(p,
-    { dvec3(40.0, 15.0, 19.0), dvec3(46.0, 8.0, 32.0), dvec3(54.0, -8.0, 46.0),
-      dvec3(52.0, -34.0, 60.0) }, 1.3));
-  d = std::min(d, tube_distance(p,
-    { dvec3(46.0, 8.0, 32.0), dvec3(53.0, 12.0, 48.0), dvec3(50.0, 8.0, 68.0) }, 1.1));
-  d = std::min(d, tube_distance(p,
-    { dvec3(40.0, 15.0, 19.0), dvec3(52.0, -4.0, 30.0), dvec3(56.0, -30.0, 36.0) }, 1.1));
-  // Anterior cerebral artery, around the front of the corpus callosum and back over it.
-  d = std::min(d, tube_distance(p,
-    { dvec3(12.0, 17.0, 13.0), dvec3(3.0, 24.0, 17.0), dvec3(2.4, 38.0, 30.0),
-      dvec3(2.4, 47.0, 50.0), dvec3(2.4, 38.0, 70.0), dvec3(2.4, 10.0, 78.0),
-      dvec3(2.4, -24.0, 78.0) }, 1.3));
-  d = std::min(d, tube_distance(p,
-    { dvec3(2.4, 47.0, 50.0), dvec3(2.6, 52.0, 70.0), dvec3(2.6, 36.0, 90.0) }, 1.0));
-  // Vertebral arteries, joined into the basilar, parted again into the posterior cerebral ones.
-  d = std::min(d, tube_distance(p,
-    { dvec3(20.0, -24.0, -170.0), dvec3(21.0, -24.0, -60.0), dvec3(24.0, -34.0, -40.0),
-      dvec3(10.0, -30.0, -32.0), dvec3(0.0, -14.0, -18.0) }, 1.8));
-  d = std::min(d, capsule_distance(p, dvec3(0.0, -14.0, -18.0), dvec3(0.0, 1.0, 12.0), 1.9, 1.7));
-  d = std::min(d, tube_distance(p,
-    { dvec3(0.0, 1.0, 12.0), dvec3(11.0, -4.0, 16.0), dvec3(19.0, -18.0, 20.0),
-      dvec3(14.0, -44.0, 28.0), dvec3(10.0, -76.0, 36.0) }, 1.3));
-  d = std::min(d, capsule_distance(p, dvec3(12.0, 17.0, 12.0), dvec3(10.0, -3.0, 15.0), 0.9, 0.9));
-  // Outer carotid: to the temple in front of the ear.
-  return std::min(d, tube_distance(p,
-    { dvec3(25.0, 0.0, -100.0), dvec3(40.0, 4.0, -76.0), dvec3(58.0, -2.0, -40.0),
-      dvec3(68.0, 4.0, -8.0), dvec3(73.0, 10.0, 20.0), dvec3(71.0, 22.0, 46.0) }, 1.3));
+  std::vector<dvec3> course;
+  double radius;
+};
+
+/// The arteries of the patient's right, each a course of straight pieces; the left has its mirror.
+std::vector<Vessel> arteries()
+{
+  return {
+    // Inner carotid, up the neck and through its bend at the skull's base.
+    { { dvec3(26.0, 2.0, -170.0), dvec3(25.0, 0.0, -100.0), dvec3(27.0, -4.0, -60.0), dvec3(25.0, 2.0, -26.0) }, 2.9 },
+    { { dvec3(25.0, 2.0, -26.0), dvec3(15.0, 8.0, -8.0), dvec3(12.0, 20.0, 1.0), dvec3(12.0, 24.0, 8.0), dvec3(12.0, 17.0, 13.0) }, 2.3 },
+    // Middle cerebral artery and its branches over the island.
+    { { dvec3(12.0, 17.0, 13.0), dvec3(24.0, 19.0, 16.0), dvec3(40.0, 15.0, 19.0) }, 1.7 },
+    { { dvec3(40.0, 15.0, 19.0), dvec3(46.0, 8.0, 32.0), dvec3(54.0, -8.0, 46.0), dvec3(52.0, -34.0, 60.0) }, 1.3 },
+    { { dvec3(46.0, 8.0, 32.0), dvec3(53.0, 12.0, 48.0), dvec3(50.0, 8.0, 68.0) }, 1.1 },
+    { { dvec3(40.0, 15.0, 19.0), dvec3(52.0, -4.0, 30.0), dvec3(56.0, -30.0, 36.0) }, 1.1 },
+    // Anterior cerebral artery, around the front of the corpus callosum and back over it.
+    { { dvec3(12.0, 17.0, 13.0), dvec3(3.0, 24.0, 17.0), dvec3(2.4, 38.0, 30.0), dvec3(2.4, 47.0, 50.0), dvec3(2.4, 38.0, 70.0), dvec3(2.4, 10.0, 78.0), dvec3(2.4, -24.0, 78.0) }, 1.3 },
+    { { dvec3(2.4, 47.0, 50.0), dvec3(2.6, 52.0, 70.0), dvec3(2.6, 36.0, 90.0) }, 1.0 },
+    // Vertebral arteries, joined into the basilar, parted again into the posterior cerebral ones.
+    { { dvec3(20.0, -24.0, -170.0), dvec3(21.0, -24.0, -60.0), dvec3(24.0, -34.0, -40.0), dvec3(10.0, -30.0, -32.0), dvec3(0.0, -14.0, -18.0) }, 1.8 },
+    { { dvec3(0.0, -14.0, -18.0), dvec3(0.0, 1.0, 12.0) }, 1.7 },
+    { { dvec3(0.0, 1.0, 12.0), dvec3(11.0, -4.0, 16.0), dvec3(19.0, -18.0, 20.0), dvec3(14.0, -44.0, 28.0), dvec3(10.0, -76.0, 36.0) }, 1.3 },
+    { { dvec3(12.0, 17.0, 12.0), dvec3(10.0, -3.0, 15.0) }, 0.9 },
+    // Outer carotid: to the temple in front of the ear.
+    { { dvec3(25.0, 0.0, -100.0), dvec3(40.0, 4.0, -76.0), dvec3(58.0, -2.0, -40.0), dvec3(66.0, 6.0, -8.0), dvec3(70.8, 10.0, 20.0), dvec3(64.0, 22.0, 46.0) }, 1.1 },
+  };
 }
 
 double veins(const dvec3& p)
@@ -215,8 +206,8 @@ void paint_brain(PaintedVolume& head, std::uint32_t seed, double edge)
   const auto cerebrum = [](const dvec3& place)
   {
     const dvec3 p = mirrored(place);
-    const double floor = 0.96 * (14.0 - p.z) + 0.26 * (p.y + 20.0) * -1.0;
-    const double behind = p.y < -14.0 ? floor : floor - 2.0 * (p.y + 14.0);
+    const double floor = 0.96 * (14.0 - p.z) - 0.26 * (p.y + 20.0);
+    const double behind = p.y < -30.0 ? floor : floor - 2.0 * (p.y + 30.0);
     return smooth_intersection(
       smooth_intersection(cranial_cavity(p) + 3.0, 1.6 - p.x, 2.0), behind / 2.3, 5.0);
   };
@@ -255,7 +246,12 @@ void paint_brain(PaintedVolume& head, std::uint32_t seed, double edge)
     },
     hu::dura);
   head.paint(veins, hu::contrast_vein);
-  head.paint(arteries, hu::contrast_blood);
+  for (const Vessel& vessel : arteries())
+  {
+    head.paint(
+      [vessel](const dvec3& p) { return tube_distance(mirrored(p), vessel.course, vessel.radius); },
+      hu::contrast_blood);
+  }
 }
 
 }

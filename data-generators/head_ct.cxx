@@ -13,9 +13,10 @@
 namespace brume
 {
 
-namespace
+Box head_ct_bounds()
 {
-const glm::dvec3 half_size(96.0, 120.0, 128.0);
+  const glm::dvec3 half(96.0, 120.0, 128.0);
+  return { -half, half };
 }
 
 HeadCT::HeadCT(const HeadCTOptions& options)
@@ -41,7 +42,7 @@ HeadCT::~HeadCT() = default;
 
 Box HeadCT::bounds() const
 {
-  return { -half_size, half_size };
+  return head_ct_bounds();
 }
 
 float HeadCT::value(const glm::dvec3& place, double) const

@@ -20,7 +20,7 @@ struct HeadCTOptions
   std::uint32_t seed = 1;
 
   /// Width over which one tissue passes into the next, millimetres: the partial volume of voxels of
-  /// about that size. Above 0. head_ct_grid() and the sources set it to 1.5 voxels.
+  /// about that size. Above 0. A good value is 1.5 voxels.
   double edge = 1.5;
 };
 
@@ -53,6 +53,9 @@ public:
 private:
   std::unique_ptr<PaintedVolume> m_painting;
 };
+
+/// The box of the phantom, millimetres: what HeadCT::bounds() gives, without making one.
+Box head_ct_bounds();
 
 /// Centre of the bead on the patient's left temple, RAS+ millimetres.
 constexpr double head_marker[3] = { -75.0, 22.0, 24.0 };

@@ -33,12 +33,16 @@ double ear(const dvec3& p)
 
 double nose(const dvec3& p)
 {
-  double d = capsule_distance(p, dvec3(0.0, 84.0, 14.0), dvec3(0.0, 104.0, -24.0), 5.5, 7.5);
+  double d = capsule_distance(p, dvec3(0.0, 82.0, 18.0), dvec3(0.0, 104.0, -24.0), 6.0, 7.5);
+  d = smooth_union(d, ellipsoid_distance(p, dvec3(0.0, 80.0, -14.0), dvec3(17.0, 15.0, 26.0)), 9.0);
   d = smooth_union(d, sphere_distance(p, dvec3(0.0, 104.5, -28.0), 9.5), 8.0);
   d = smooth_union(d, ellipsoid_distance(p, dvec3(11.0, 95.0, -32.0), dvec3(7.0, 10.0, 8.0)), 5.0);
   return smooth_union(
     d, ellipsoid_distance(p, dvec3(0.0, 92.0, -37.0), dvec3(4.0, 10.0, 5.0)), 4.0);
 }
+
+/// Beyond this distance, millimetres, a shape need not ask where the skin is.
+constexpr double reach_of_skin = 4.0;
 
 double skin_surface(const dvec3& place)
 {
@@ -48,24 +52,29 @@ double skin_surface(const dvec3& place)
   // Forehead, face, cheeks, jaw, chin.
   d = smooth_union(d, ellipsoid_distance(p, dvec3(0.0, 35.0, 22.0), dvec3(60.0, 47.0, 34.0)), 18.0);
   d = smooth_union(
-    d, ellipsoid_distance(p, dvec3(0.0, 30.0, -32.0), dvec3(60.0, 54.0, 62.0)), 22.0);
+    d, ellipsoid_distance(p, dvec3(0.0, 30.0, -32.0), dvec3(64.0, 53.0, 62.0)), 22.0);
+  d = smooth_union(d, ellipsoid_distance(p, dvec3(38.0, 24.0, -12.0), dvec3(35.0, 40.0, 28.0)), 12.0);
   d = smooth_union(d, ellipsoid_distance(p, dvec3(40.0, 60.0, -16.0), dvec3(22.0, 22.0, 16.0)), 14.0);
   d = smooth_union(d, ellipsoid_distance(p, dvec3(0.0, 64.0, -62.0), dvec3(34.0, 25.0, 22.0)), 16.0);
   d = smooth_union(
     d, capsule_distance(p, dvec3(53.0, 6.0, -60.0), dvec3(16.0, 66.0, -90.0), 13.0, 14.0), 16.0);
   d = smooth_union(d, ellipsoid_distance(p, dvec3(0.0, 74.0, -91.0), dvec3(17.0, 15.0, 14.0)), 10.0);
+  d = smooth_union(
+    d, capsule_distance(p, dvec3(45.0, 56.0, 20.0), dvec3(47.0, 55.0, -10.0), 10.0, 10.0), 12.0);
+  // Floor of the mouth.
+  d = smooth_union(d, ellipsoid_distance(p, dvec3(0.0, 36.0, -92.0), dvec3(32.0, 38.0, 17.0)), 12.0);
   // Neck, with the muscles that run from behind the ear to the breastbone.
   d = smooth_union(
-    d, capsule_distance(p, dvec3(0.0, -30.0, -20.0), dvec3(0.0, -36.0, -180.0), 57.0, 57.0), 20.0);
+    d, capsule_distance(p, dvec3(0.0, -32.0, -20.0), dvec3(0.0, -36.0, -180.0), 54.0, 52.0), 24.0);
   d = smooth_union(
     d, capsule_distance(p, dvec3(50.0, -22.0, -40.0), dvec3(20.0, 14.0, -160.0), 11.0, 11.0), 14.0);
   d = smooth_union(d, ellipsoid_distance(p, dvec3(0.0, 24.0, -122.0), dvec3(9.0, 10.0, 15.0)), 14.0);
   // Eye hollows, then lids over the eyeballs, and the brows above.
   d = smooth_difference(
-    d, ellipsoid_distance(p, dvec3(32.0, 95.0, 1.0), dvec3(17.0, 15.0, 12.0)), 10.0);
+    d, ellipsoid_distance(p, dvec3(33.0, 96.0, 0.0), dvec3(18.0, 16.0, 12.0)), 12.0);
   d = smooth_union(d, sphere_distance(p, dvec3(32.0, 70.0, 2.0), 14.2), 4.0);
   d = smooth_union(
-    d, capsule_distance(p, dvec3(9.0, 82.0, 17.0), dvec3(42.0, 70.0, 19.0), 5.0, 4.5), 10.0);
+    d, capsule_distance(p, dvec3(12.0, 80.5, 18.0), dvec3(43.0, 70.0, 20.0), 6.0, 5.0), 14.0);
   // The crease of the closed lids.
   d = smooth_difference(d,
     tube_distance(p,
@@ -73,7 +82,7 @@ double skin_surface(const dvec3& place)
         dvec3(44.5, 79.5, 0.5) },
       1.1),
     1.5);
-  d = smooth_union(d, nose(p), 7.0);
+  d = smooth_union(d, nose(p), 9.0);
   // Lips, and the line between them.
   d = smooth_union(d, ellipsoid_distance(p, dvec3(0.0, 86.0, -59.5), dvec3(20.0, 9.0, 4.6)), 5.0);
   d = smooth_union(d, ellipsoid_distance(p, dvec3(8.0, 88.0, -58.8), dvec3(11.0, 8.0, 4.2)), 4.0);
@@ -99,7 +108,7 @@ double airway(const dvec3& place)
 {
   const dvec3 p = mirrored(place);
   // Either side of the septum; three shelves, the conchae, reach in from the side wall.
-  double nasal = ellipsoid_distance(p, dvec3(6.0, 58.0, -19.0), dvec3(5.0, 34.0, 20.0));
+  double nasal = ellipsoid_distance(p, dvec3(6.0, 56.0, -19.0), dvec3(5.0, 31.0, 20.0));
   for (double z : { -31.0, -20.0, -9.0 })
   {
     nasal = smooth_difference(nasal,
@@ -128,23 +137,32 @@ double airway(const dvec3& place)
 void paint_soft_tissue(PaintedVolume& head)
 {
   namespace hu = hounsfield;
+  // What lies below the skin stays at least 2.5 mm below it.
+  const auto below_skin = [](PaintedVolume::Distance shape)
+  {
+    return [shape](const dvec3& p)
+    {
+      const double d = shape(p);
+      return d < 2.0 * reach_of_skin ? std::max(d, skin_surface(p) + 2.5) : d;
+    };
+  };
   head.paint(skin_surface, { { 0.0, hu::skin }, { 2.0, hu::fat }, { 5.0, hu::muscle } });
 
   // Fat of cheeks, neck and temples, with the chewing muscles left in it.
-  head.paint([](const dvec3& p)
-    { return ellipsoid_distance(mirrored(p), dvec3(40.0, 52.0, -42.0), dvec3(14.0, 16.0, 17.0)); },
+  head.paint(below_skin([](const dvec3& p)
+    { return ellipsoid_distance(mirrored(p), dvec3(40.0, 52.0, -42.0), dvec3(14.0, 16.0, 17.0)); }),
     hu::fat);
-  head.paint([](const dvec3& p)
-    { return ellipsoid_distance(mirrored(p), dvec3(58.0, 26.0, -36.0), dvec3(6.0, 14.0, 28.0)); },
+  head.paint(below_skin([](const dvec3& p)
+    { return ellipsoid_distance(mirrored(p), dvec3(58.0, 26.0, -36.0), dvec3(6.0, 14.0, 28.0)); }),
     hu::muscle);
-  head.paint([](const dvec3& p)
-    { return ellipsoid_distance(mirrored(p), dvec3(60.0, -6.0, -46.0), dvec3(9.0, 13.0, 20.0)); },
+  head.paint(below_skin([](const dvec3& p)
+    { return ellipsoid_distance(mirrored(p), dvec3(60.0, -6.0, -46.0), dvec3(9.0, 13.0, 20.0)); }),
     hu::gland);
   head.paint([](const dvec3& p)
     {
       const dvec3 q = mirrored(p);
       return std::min(
-        capsule_distance(q, dvec3(32.0, -12.0, -60.0), dvec3(30.0, -4.0, -170.0), 8.0, 8.0),
+        capsule_distance(q, dvec3(32.0, -12.0, -60.0), dvec3(30.0, -4.0, -170.0), 5.0, 5.0),
         capsule_distance(q, dvec3(0.0, -72.0, -60.0), dvec3(0.0, -80.0, -170.0), 3.0, 3.0));
     },
     hu::fat);
@@ -158,7 +176,7 @@ void paint_soft_tissue(PaintedVolume& head)
     {
       const dvec3 q = mirrored(p);
       return std::min(
-        box_distance(q, dvec3(0.0, 78.0, -18.0), dvec3(1.0, 24.0, 18.0), 0.8),
+        box_distance(q, dvec3(0.0, 73.0, -20.0), dvec3(1.0, 22.0, 16.0), 0.8),
         capsule_distance(q, dvec3(4.0, 100.0, -24.0), dvec3(9.0, 100.0, -30.0), 1.5, 1.5));
     },
     hu::cartilage);
@@ -171,7 +189,12 @@ void paint_soft_tissue(PaintedVolume& head)
         capsule_distance(q, dvec3(1.0, 22.0, -126.0), dvec3(16.0, 2.0, -126.0), 2.0, 2.0));
     },
     hu::cartilage);
-  head.paint([](const dvec3& p) { return airway(p) - 1.8; }, hu::mucosa);
+  head.paint([](const dvec3& p)
+    {
+      const double lining = airway(p) - 1.8;
+      return lining < 2.0 * reach_of_skin ? std::max(lining, skin_surface(p)) : lining;
+    },
+    hu::mucosa);
   head.paint(airway, hu::air);
 }
 

@@ -43,7 +43,7 @@ std::vector<dvec3> arch(double half_width, double front, double back, double z)
 /// Brow, cheek bones, upper jaw: the bone of the face before sockets and nose are cut.
 double face_bone(const dvec3& p)
 {
-  double d = ellipsoid_distance(p, dvec3(0.0, 56.0, 24.0), dvec3(44.0, 18.0, 15.0));
+  double d = ellipsoid_distance(p, dvec3(0.0, 48.0, 32.0), dvec3(50.0, 26.0, 32.0));
   d = smooth_union(
     d, capsule_distance(p, dvec3(6.0, 74.0, 19.0), dvec3(44.0, 60.0, 19.0), 6.0, 5.0), 8.0);
   // Frame of the eye socket: outer rim, lower rim.
@@ -80,7 +80,7 @@ double skull_base(const dvec3& p)
   d = smooth_union(
     d, capsule_distance(p, dvec3(0.0, 8.0, -10.0), dvec3(0.0, -12.0, -30.0), 9.0, 6.0), 8.0);
   d = smooth_union(
-    d, capsule_distance(p, dvec3(0.0, -98.0, -8.0), dvec3(0.0, -92.0, -16.0), 4.0, 4.0), 14.0);
+    d, capsule_distance(p, dvec3(0.0, -92.0, -4.0), dvec3(0.0, -87.0, -14.0), 4.0, 4.0), 14.0);
   return smooth_union(
     d, capsule_distance(p, dvec3(24.0, 2.0, -30.0), dvec3(23.0, 4.0, -54.0), 2.4, 0.8), 3.0);
 }
@@ -105,7 +105,7 @@ double skull_surface(const dvec3& place)
 {
   const dvec3 p = mirrored(place);
   double d = cranial_cavity(p) - vault_thickness;
-  d = smooth_union(d, face_bone(p), 8.0);
+  d = smooth_union(d, face_bone(p), 14.0);
   d = smooth_union(d, skull_base(p), 6.0);
   // The hollow of the temples behind the outer rim of the socket.
   d = smooth_difference(
@@ -177,6 +177,13 @@ double spine(const dvec3& place)
 /// the surface only.
 double suture(const dvec3& p)
 {
+  const double far = 14.0; // more than the zigzag's swing
+  if (p.z < 5.0 ||
+    (std::fabs(p.x) > far && std::fabs(p.y - 14.0 + 0.12 * (p.z - 60.0)) > far &&
+      std::fabs(p.z - 66.0 + 0.75 * std::fabs(p.x)) > far))
+  {
+    return far;
+  }
   const double zigzag = 7.0 * perlin_noise(p / 6.0, 71) + 4.0 * perlin_noise(p / 2.6, 72);
   const double coronal = std::fabs(p.y - 14.0 + 0.12 * (p.z - 60.0) + zigzag);
   const double behind = p.y - 14.0 + 0.12 * (p.z - 60.0);
@@ -272,8 +279,8 @@ void paint_air_in_bone(PaintedVolume& head, std::uint32_t seed)
       ellipsoid_distance(p, dvec3(27.0, 56.0, -24.0), dvec3(10.0, 15.0, 11.0)),
       ellipsoid_distance(p, dvec3(24.0, 56.0, -32.0), dvec3(7.0, 11.0, 9.0)), 5.0);
     const double brow = smooth_union(
-      ellipsoid_distance(p, dvec3(9.0, 71.0, 26.0), dvec3(7.0, 3.6, 9.0)),
-      ellipsoid_distance(p, dvec3(19.0, 68.0, 23.0), dvec3(8.0, 3.2, 5.0)), 4.0);
+      ellipsoid_distance(p, dvec3(9.0, 69.5, 25.0), dvec3(7.0, 3.2, 8.0)),
+      ellipsoid_distance(p, dvec3(19.0, 66.5, 23.0), dvec3(8.0, 2.8, 5.0)), 4.0);
     const double wedge = std::max(
       ellipsoid_distance(p, dvec3(7.0, 22.0, -5.0), dvec3(8.0, 12.0, 9.0)), 0.8 - p.x);
     return std::min({ jaw, brow, wedge });

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numeric>
 #include <tbb/parallel_for.h>
 
 namespace brume
@@ -12,7 +13,9 @@ namespace brume
 
 namespace
 {
-constexpr int cells = 40; ///< along each axis
+constexpr int blocks = 16;        ///< along each axis: a first, coarse sorting
+constexpr int cells_a_block = 4;  ///< along each axis
+constexpr int cells = blocks * cells_a_block;
 /// How far a shape is kept beyond the reach that its distance gives: an ellipsoid's distance is
 /// right at its surface only.
 constexpr double caution = 1.5;
@@ -47,6 +50,16 @@ double PaintedVolume::blend(const Shape& shape, int first, int last, bool covere
     return shape.layers[first].value;
   }
   depth = -shape.distance(place);
+  // The deepest layer that hides all before it.
+  for (int l = last - 1; l > first; --l)
+  {
+    if (depth >= shape.layers[l].depth + 0.5 * m_edge)
+    {
+      first = l;
+      covered = true;
+      break;
+    }
+  }
   for (int l = first; l < last; ++l)
   {
     const Layer& layer = shape.layers[l];
@@ -62,11 +75,11 @@ double PaintedVolume::blend(const Shape& shape, int first, int last, bool covere
 }
 
 std::vector<PaintedVolume::Entry> PaintedVolume::entries_of(
-  const glm::dvec3& centre, double radius) const
+  const glm::dvec3& centre, double radius, const std::vector<std::uint16_t>& candidates) const
 {
   const double reach = caution * (radius + 0.5 * m_edge);
   std::vector<Entry> entries;
-  for (std::size_t s = 0; s < m_shapes.size(); ++s)
+  for (const std::uint16_t s : candidates)
   {
     const std::vector<Layer>& layers = m_shapes[s].layers;
     const double depth = -m_shapes[s].distance(centre);
@@ -88,7 +101,7 @@ std::vector<PaintedVolume::Entry> PaintedVolume::entries_of(
     }
     if (last > first)
     {
-      entries.push_back({ static_cast<std::uint16_t>(s), static_cast<std::uint8_t>(first),
+      entries.push_back({ s, static_cast<std::uint8_t>(first),
         static_cast<std::uint8_t>(last), covered });
     }
   }
@@ -97,14 +110,29 @@ std::vector<PaintedVolume::Entry> PaintedVolume::entries_of(
 
 void PaintedVolume::finish()
 {
-  const glm::dvec3 size = (m_box.upper - m_box.lower) / static_cast<double>(cells);
-  const double radius = 0.5 * glm::length(size);
-  m_cells.resize(static_cast<std::size_t>(cells) * cells * cells);
-  tbb::parallel_for(0, cells * cells * cells,
-    [&](int c)
+  const glm::dvec3 block_size = (m_box.upper - m_box.lower) / static_cast<double>(blocks);
+  const glm::dvec3 cell_size = block_size / static_cast<double>(cells_a_block);
+  std::vector<std::uint16_t> all(m_shapes.size());
+  std::iota(all.begin(), all.end(), std::uint16_t(0));
+  m_cells.assign(static_cast<std::size_t>(cells) * cells * cells, {});
+  tbb::parallel_for(0, blocks * blocks * blocks,
+    [&](int b)
     {
-      const glm::dvec3 index(c % cells, (c / cells) % cells, c / (cells * cells));
-      m_cells[c] = entries_of(m_box.lower + (index + 0.5) * size, radius);
+      const glm::ivec3 block(b % blocks, (b / blocks) % blocks, b / (blocks * blocks));
+      std::vector<std::uint16_t> near;
+      for (const Entry& e : entries_of(m_box.lower + (glm::dvec3(block) + 0.5) * block_size,
+             0.5 * glm::length(block_size), all))
+      {
+        near.push_back(e.shape);
+      }
+      for (int c = 0; c < cells_a_block * cells_a_block * cells_a_block; ++c)
+      {
+        const glm::ivec3 cell = block * cells_a_block +
+          glm::ivec3(c % cells_a_block, (c / cells_a_block) % cells_a_block,
+            c / (cells_a_block * cells_a_block));
+        m_cells[(static_cast<std::size_t>(cell.z) * cells + cell.y) * cells + cell.x] = entries_of(
+          m_box.lower + (glm::dvec3(cell) + 0.5) * cell_size, 0.5 * glm::length(cell_size), near);
+      }
     });
 }
 
