@@ -49,6 +49,20 @@ double skin_surface(const dvec3& place)
   const dvec3 p = mirrored(place);
   // The vault follows the cavity: bone and scalp together are 13 mm thick.
   double d = cranial_cavity(p) - 13.0;
+  // Neck, with the muscles that run from behind the ear to the breastbone.
+  d = smooth_union(
+    d, capsule_distance(p, dvec3(0.0, -32.0, -20.0), dvec3(0.0, -36.0, -180.0), 54.0, 52.0), 24.0);
+  d = smooth_union(
+    d, capsule_distance(p, dvec3(50.0, -22.0, -40.0), dvec3(20.0, 14.0, -160.0), 11.0, 11.0), 14.0);
+  if (sphere_distance(p, dvec3(78.0, -10.0, -8.0), 40.0) < d + 4.0)
+  {
+    d = smooth_union(d, ear(p), 4.0);
+  }
+  // All that follows lies within this ball, and no fillet is wider than 22.
+  if (sphere_distance(p, dvec3(0.0, 30.0, -40.0), 105.0) > d + 22.0)
+  {
+    return d;
+  }
   // Forehead, face, cheeks, jaw, chin.
   d = smooth_union(d, ellipsoid_distance(p, dvec3(0.0, 35.0, 22.0), dvec3(60.0, 47.0, 34.0)), 18.0);
   d = smooth_union(
@@ -63,11 +77,6 @@ double skin_surface(const dvec3& place)
     d, capsule_distance(p, dvec3(45.0, 56.0, 20.0), dvec3(47.0, 55.0, -10.0), 10.0, 10.0), 12.0);
   // Floor of the mouth.
   d = smooth_union(d, ellipsoid_distance(p, dvec3(0.0, 36.0, -92.0), dvec3(32.0, 38.0, 17.0)), 12.0);
-  // Neck, with the muscles that run from behind the ear to the breastbone.
-  d = smooth_union(
-    d, capsule_distance(p, dvec3(0.0, -32.0, -20.0), dvec3(0.0, -36.0, -180.0), 54.0, 52.0), 24.0);
-  d = smooth_union(
-    d, capsule_distance(p, dvec3(50.0, -22.0, -40.0), dvec3(20.0, 14.0, -160.0), 11.0, 11.0), 14.0);
   d = smooth_union(d, ellipsoid_distance(p, dvec3(0.0, 24.0, -122.0), dvec3(9.0, 10.0, 15.0)), 14.0);
   // Eye hollows, then lids over the eyeballs, and the brows above.
   d = smooth_difference(
@@ -98,7 +107,6 @@ double skin_surface(const dvec3& place)
     d, capsule_distance(p, dvec3(0.0, 95.5, -44.0), dvec3(0.0, 97.5, -54.0), 2.0, 2.6), 5.0);
   d = smooth_difference(
     d, ellipsoid_distance(p, dvec3(0.0, 97.0, -77.5), dvec3(20.0, 8.0, 4.5)), 7.0);
-  d = smooth_union(d, ear(p), 4.0);
   // Nostrils.
   return smooth_difference(
     d, capsule_distance(p, dvec3(6.5, 97.0, -46.0), dvec3(5.5, 95.0, -30.0), 3.6, 3.6), 2.0);

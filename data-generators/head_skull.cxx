@@ -105,6 +105,13 @@ double skull_surface(const dvec3& place)
 {
   const dvec3 p = mirrored(place);
   double d = cranial_cavity(p) - vault_thickness;
+  // The balls hold all that is added or cut below; no fillet is wider than 14.
+  const bool near_face = sphere_distance(p, dvec3(0.0, 40.0, -8.0), 82.0) < d + 14.0;
+  const bool near_base = sphere_distance(p, dvec3(0.0, -35.0, -15.0), 95.0) < d + 14.0;
+  if (!near_face && !near_base)
+  {
+    return d;
+  }
   d = smooth_union(d, face_bone(p), 14.0);
   d = smooth_union(d, skull_base(p), 6.0);
   // The hollow of the temples behind the outer rim of the socket.

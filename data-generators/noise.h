@@ -20,7 +20,7 @@ namespace brume
 float perlin_noise(const glm::dvec3& place, std::uint32_t seed);
 
 /// Cellular noise: the distance to the nearest of a set of points, one at random in each unit cell,
-/// cut off at 1. Range [0, 1], mean about 0.54, continuous, with a slope of at most 1.
+/// cut off at 1. Range [0, 1], mean about 0.52, continuous, with a slope of at most 1.
 /// Worley, "A cellular texture basis function" (1996), F1. With the cut-off, which less than one
 /// place in a hundred meets, the 27 cells around a place are all that matter: there is no seam.
 float worley_noise(const glm::dvec3& place, std::uint32_t seed);
@@ -42,7 +42,7 @@ struct Octaves
 float fbm(const glm::dvec3& place, std::uint32_t seed, const Octaves& octaves = {});
 
 /// The same over 1 - worley: billows, round and bulging with creases between. Range [0, 1], mean
-/// about 0.46.
+/// about 0.48.
 float billow_fbm(const glm::dvec3& place, std::uint32_t seed, const Octaves& octaves = {});
 
 /// Domain warp: the place moved by a vector of gradient noise, at most `amplitude` along each axis
