@@ -35,10 +35,10 @@ double nose(const dvec3& p)
 {
   double d = capsule_distance(p, dvec3(0.0, 82.0, 18.0), dvec3(0.0, 104.0, -24.0), 6.0, 7.5);
   d = smooth_union(d, ellipsoid_distance(p, dvec3(0.0, 80.0, -14.0), dvec3(17.0, 15.0, 26.0)), 9.0);
-  d = smooth_union(d, sphere_distance(p, dvec3(0.0, 104.5, -28.0), 9.5), 8.0);
-  d = smooth_union(d, ellipsoid_distance(p, dvec3(11.0, 95.0, -32.0), dvec3(7.0, 10.0, 8.0)), 5.0);
+  d = smooth_union(d, sphere_distance(p, dvec3(0.0, 103.5, -27.0), 10.0), 8.0);
+  d = smooth_union(d, ellipsoid_distance(p, dvec3(10.5, 95.0, -31.0), dvec3(7.0, 11.0, 8.0)), 7.0);
   return smooth_union(
-    d, ellipsoid_distance(p, dvec3(0.0, 92.0, -37.0), dvec3(4.0, 10.0, 5.0)), 4.0);
+    d, ellipsoid_distance(p, dvec3(0.0, 93.0, -35.0), dvec3(4.5, 12.0, 4.0)), 5.0);
 }
 
 /// Beyond this distance, millimetres, a shape need not ask where the skin is.
@@ -71,7 +71,7 @@ double skin_surface(const dvec3& place)
   d = smooth_union(d, ellipsoid_distance(p, dvec3(40.0, 60.0, -16.0), dvec3(22.0, 22.0, 16.0)), 14.0);
   d = smooth_union(d, ellipsoid_distance(p, dvec3(0.0, 64.0, -62.0), dvec3(34.0, 25.0, 22.0)), 16.0);
   d = smooth_union(
-    d, capsule_distance(p, dvec3(53.0, 6.0, -60.0), dvec3(16.0, 66.0, -90.0), 13.0, 14.0), 16.0);
+    d, capsule_distance(p, dvec3(47.0, 8.0, -56.0), dvec3(16.0, 66.0, -90.0), 14.0, 14.0), 22.0);
   d = smooth_union(d, ellipsoid_distance(p, dvec3(0.0, 74.0, -91.0), dvec3(17.0, 15.0, 14.0)), 10.0);
   d = smooth_union(
     d, capsule_distance(p, dvec3(45.0, 56.0, 20.0), dvec3(47.0, 55.0, -10.0), 10.0, 10.0), 12.0);
@@ -92,10 +92,11 @@ double skin_surface(const dvec3& place)
       1.1),
     1.5);
   d = smooth_union(d, nose(p), 9.0);
+  d = smooth_union(d, ellipsoid_distance(p, dvec3(0.0, 70.0, -50.0), dvec3(24.0, 20.0, 16.0)), 12.0);
   // Lips, and the line between them.
-  d = smooth_union(d, ellipsoid_distance(p, dvec3(0.0, 86.0, -59.5), dvec3(20.0, 9.0, 4.6)), 5.0);
+  d = smooth_union(d, ellipsoid_distance(p, dvec3(0.0, 86.0, -59.5), dvec3(21.0, 9.0, 4.6)), 7.0);
   d = smooth_union(d, ellipsoid_distance(p, dvec3(8.0, 88.0, -58.8), dvec3(11.0, 8.0, 4.2)), 4.0);
-  d = smooth_union(d, ellipsoid_distance(p, dvec3(0.0, 86.5, -68.5), dvec3(18.0, 8.5, 5.2)), 5.0);
+  d = smooth_union(d, ellipsoid_distance(p, dvec3(0.0, 86.5, -68.5), dvec3(19.0, 8.5, 5.2)), 7.0);
   d = smooth_difference(d,
     tube_distance(p,
       { dvec3(0.0, 96.5, -63.6), dvec3(9.0, 95.5, -63.2), dvec3(18.0, 90.5, -64.2),

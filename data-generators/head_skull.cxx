@@ -138,15 +138,15 @@ double lower_jaw(const dvec3& place)
   const dvec3 tall(p.x, p.y, 0.65 * p.z);
   double d = tube_distance(tall,
     { dvec3(0.0, 75.0, -57.0), dvec3(14.0, 72.0, -57.0), dvec3(27.0, 56.0, -56.0),
-      dvec3(38.0, 34.0, -53.0), dvec3(46.0, 14.0, -48.0) }, 5.6);
+      dvec3(38.0, 34.0, -53.0), dvec3(46.0, 14.0, -47.5) }, 6.4);
   d = smooth_union(
     d, tube_distance(dvec3(p.x, p.y, 0.6 * p.z), arch(26.0, 71.0, 34.0, -48.0), 4.2), 6.0);
   d = smooth_union(d, ellipsoid_distance(p, dvec3(0.0, 77.0, -93.0), dvec3(13.0, 6.0, 8.0)), 6.0);
   // The branch that rises to the joint, flat in x.
   const dvec3 flat(1.8 * (p.x - 48.0), p.y, p.z);
   const double branch = smooth_union(
-    capsule_distance(flat, dvec3(-2.0, 13.0, -72.0), dvec3(6.0, 5.0, -24.0), 11.0, 5.5),
-    capsule_distance(flat, dvec3(0.0, 22.0, -58.0), dvec3(0.0, 27.0, -22.0), 8.0, 2.5), 6.0) / 1.8;
+    capsule_distance(flat, dvec3(-2.0, 13.0, -70.0), dvec3(6.0, 6.0, -24.0), 13.0, 7.0),
+    capsule_distance(flat, dvec3(0.0, 23.0, -56.0), dvec3(0.0, 28.0, -22.0), 10.0, 3.0), 6.0) / 1.8;
   d = smooth_union(d, branch, 6.0);
   return smooth_union(
     d, ellipsoid_distance(p, dvec3(52.0, 4.0, -19.0), dvec3(9.0, 4.5, 5.0)), 4.0);
