@@ -18,8 +18,8 @@ namespace
 // The cloud's proportions, in widths of its box.
 constexpr double box_height = 0.6;
 constexpr double base_height = 0.08;
-constexpr double empty_border = 0.02;  ///< no density nearer to a face than this
-constexpr double border_fade = 0.06;   ///< full density from here on
+constexpr double empty_border = 0.02; ///< no density nearer to a face than this
+constexpr double border_fade = 0.06;  ///< full density from here on
 constexpr double largest_warp = 0.06;
 constexpr double threshold = 0.25;
 
@@ -82,11 +82,17 @@ void add_buds(std::vector<Sphere>& spheres, const Sphere& parent, int generation
 std::vector<Sphere> pile_spheres(std::uint32_t seed)
 {
   std::vector<Sphere> spheres;
-  Sequence random(substream(seed, 100));
+  Sequence random(substream(seed, 105));
   // The first tower stands near the middle and is the highest. The others lie around it at even
   // angles, on an ellipse longer in x, every other one nearer to it; the farther the lower.
-  static const double around[8][2] = { { 1.0, 0.0 }, { 0.7, 0.7 }, { 0.0, 1.0 }, { -0.7, 0.7 },
-    { -1.0, 0.0 }, { -0.7, -0.7 }, { 0.0, -1.0 }, { 0.7, -0.7 } };
+  static const double around[8][2] = { { 1.0, 0.0 },
+    { 0.7, 0.7 },
+    { 0.0, 1.0 },
+    { -0.7, 0.7 },
+    { -1.0, 0.0 },
+    { -0.7, -0.7 },
+    { 0.0, -1.0 },
+    { 0.7, -0.7 } };
   for (int t = 0; t < 9; ++t)
   {
     double x = random.between(-0.05, 0.05);
@@ -218,8 +224,8 @@ Cumulus::Cumulus(const CumulusOptions& options)
   require(above_zero(options.crispness), "the crispness must be above 0");
   require(std::isfinite(options.warp_amplitude) && std::isfinite(options.warp_size),
     "the warp must be finite");
-  require(std::isfinite(options.wind.x) && std::isfinite(options.wind.y) &&
-      std::isfinite(options.wind.z),
+  require(
+    std::isfinite(options.wind.x) && std::isfinite(options.wind.y) && std::isfinite(options.wind.z),
     "the wind must be finite");
   m_options.warp_amplitude = std::clamp(options.warp_amplitude, 0.0, largest_warp * options.width);
   m_heap = std::make_unique<Heap>(options.seed, m_options.warp_amplitude / options.width);
@@ -239,8 +245,8 @@ float Cumulus::value(const glm::dvec3& place, double time) const
 
   // Distance to the nearest face, and the height over the base: nothing outside, nothing below.
   const glm::dvec3 unit = place / o.width;
-  const double inside = std::min({ 0.5 - std::fabs(unit.x), 0.5 - std::fabs(unit.y), unit.z,
-    box_height - unit.z });
+  const double inside =
+    std::min({ 0.5 - std::fabs(unit.x), 0.5 - std::fabs(unit.y), unit.z, box_height - unit.z });
   if (!(inside > empty_border) || unit.z <= base_height - 0.03)
   {
     return 0.0f;
@@ -255,8 +261,8 @@ float Cumulus::value(const glm::dvec3& place, double time) const
   // Even the strongest noise leaves nothing where heap * (0.8 + offset) is below the threshold.
   const double needed = threshold / (0.8 + o.offset);
   const glm::dvec3 drift = std::isfinite(time) ? o.wind * time : glm::dvec3(0.0);
-  const glm::dvec3 warped = warp(place - drift, o.warp_size, o.warp_amplitude,
-    substream(o.seed, 1)) + drift;
+  const glm::dvec3 warped =
+    warp(place - drift, o.warp_size, o.warp_amplitude, substream(o.seed, 1)) + drift;
   const double heap = m_heap->at(cell, warped / o.width);
   if (heap <= needed)
   {
@@ -269,8 +275,8 @@ float Cumulus::value(const glm::dvec3& place, double time) const
   const double noise = remap(0.5 * (billows + gradient), 0.33, 0.63, 0.0, 1.0);
 
   const double body = saturate(o.crispness * (heap * (0.8 * noise + o.offset) - threshold));
-  const double base = smooth_ramp(
-    unit.z, base_height - 0.03 + 0.03 * noise, base_height + 0.015 + 0.03 * noise);
+  const double base =
+    smooth_ramp(unit.z, base_height - 0.03 + 0.03 * noise, base_height + 0.015 + 0.03 * noise);
   return static_cast<float>(body * base * smooth_ramp(inside, empty_border, border_fade));
 }
 

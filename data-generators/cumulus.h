@@ -28,8 +28,8 @@ struct CumulusOptions
   /// Octaves of the noise, each half as large and half as strong as the one before. 1 … 8.
   int octaves = 5;
 
-  /// What the heaps weigh with no noise: the recipe's offset, (0.8 noise + offset). Larger fills the
-  /// cloud and smooths its surface, smaller frays it, and tears it below about 0.1. 0 … 1.
+  /// What the heaps weigh with no noise: the recipe's offset, (0.8 noise + offset). Larger fills
+  /// the cloud and smooths its surface, smaller frays it, and tears it below about 0.1. 0 … 1.
   double offset = 0.12;
 
   /// Contrast of the cloud's edge: how fast density climbs from 0 to 1 where the cloud begins.
@@ -51,9 +51,9 @@ struct CumulusOptions
 ///
 /// The recipe: heap(p) * (0.8 noise(p) + offset), a threshold, and a ramp upward from the base:
 ///   density = ramp(z) * saturate(crispness * (heap(p') * (0.8 noise(p' - wind t) + offset) - 1/4))
-/// p' is the warped place. heap is 1 - prod(1 - f_b^2) over the spheres b, f_b = (1 - |p' - c_b|^2 /
-/// r_b^2) held to 0 and above. noise is half gradient fBm, half billows, in [0, 1]. The spheres are
-/// piled in three generations: towers on the base, buds on the towers, buds on the buds.
+/// p' is the warped place. heap is 1 - prod(1 - f_b^2) over the spheres b, f_b = (1 - |p' - c_b|^2
+/// / r_b^2) held to 0 and above. noise is half gradient fBm, half billows, in [0, 1]. The spheres
+/// are piled in three generations: towers on the base, buds on the towers, buds on the buds.
 ///
 /// Density is exactly 0 within 0.02 width of the box's faces, and outside the box: a grid of 26
 /// voxels a side or more has an empty border.

@@ -31,9 +31,7 @@ HeadCT::HeadCT(const HeadCTOptions& options)
   head::paint_eyes(*m_painting);
   head::paint_brain(*m_painting, options.seed, options.edge);
   m_painting->paint([](const glm::dvec3& p)
-    {
-      return sphere_distance(p, glm::dvec3(head_marker[0], head_marker[1], head_marker[2]), 4.0);
-    },
+    { return sphere_distance(p, glm::dvec3(head_marker[0], head_marker[1], head_marker[2]), 4.0); },
     hounsfield::marker);
   m_painting->finish();
 }
@@ -50,8 +48,13 @@ float HeadCT::value(const glm::dvec3& place, double) const
   return static_cast<float>(m_painting->value(place));
 }
 
-bool sample_head_ct(const HeadCT& head, double noise, std::uint32_t noise_seed, const Grid& grid,
-  const Extent& extent, std::int16_t* values, const Progress& progress)
+bool sample_head_ct(const HeadCT& head,
+  double noise,
+  std::uint32_t noise_seed,
+  const Grid& grid,
+  const Extent& extent,
+  std::int16_t* values,
+  const Progress& progress)
 {
   const std::uint32_t key = substream(noise_seed, 50);
   return for_each_row(

@@ -52,12 +52,19 @@ double face_bone(const dvec3& p)
   d = smooth_union(
     d, capsule_distance(p, dvec3(48.0, 58.0, -16.0), dvec3(16.0, 72.0, -14.0), 6.0, 4.0), 6.0);
   // Cheek bone and its arch to the ear.
-  d = smooth_union(d, ellipsoid_distance(p, dvec3(44.0, 60.0, -20.0), dvec3(11.0, 10.0, 10.0)), 8.0);
-  d = smooth_union(d, tube_distance(dvec3(p.x, p.y, 0.75 * p.z),
-    { dvec3(50.0, 52.0, -12.5), dvec3(61.0, 32.0, -11.5), dvec3(63.5, 14.0, -10.5),
-      dvec3(60.0, -2.0, -10.0) }, 3.0), 5.0);
+  d =
+    smooth_union(d, ellipsoid_distance(p, dvec3(44.0, 60.0, -20.0), dvec3(11.0, 10.0, 10.0)), 8.0);
+  d = smooth_union(d,
+    tube_distance(dvec3(p.x, p.y, 0.75 * p.z),
+      { dvec3(50.0, 52.0, -12.5),
+        dvec3(61.0, 32.0, -11.5),
+        dvec3(63.5, 14.0, -10.5),
+        dvec3(60.0, -2.0, -10.0) },
+      3.0),
+    5.0);
   // Upper jaw, from the socket's floor to the teeth.
-  d = smooth_union(d, ellipsoid_distance(p, dvec3(20.0, 56.0, -30.0), dvec3(20.0, 19.0, 22.0)), 8.0);
+  d =
+    smooth_union(d, ellipsoid_distance(p, dvec3(20.0, 56.0, -30.0), dvec3(20.0, 19.0, 22.0)), 8.0);
   d = smooth_union(
     d, capsule_distance(p, dvec3(9.0, 76.0, 12.0), dvec3(17.0, 74.0, -26.0), 4.0, 5.0), 6.0);
   // Bridge of the nose.
@@ -76,7 +83,8 @@ double face_bone(const dvec3& p)
 double skull_base(const dvec3& p)
 {
   double d = capsule_distance(p, dvec3(52.0, -10.0, -12.0), dvec3(16.0, 6.0, -8.0), 10.0, 7.0);
-  d = smooth_union(d, ellipsoid_distance(p, dvec3(53.0, -22.0, -24.0), dvec3(10.0, 12.0, 19.0)), 8.0);
+  d =
+    smooth_union(d, ellipsoid_distance(p, dvec3(53.0, -22.0, -24.0), dvec3(10.0, 12.0, 19.0)), 8.0);
   d = smooth_union(
     d, capsule_distance(p, dvec3(0.0, 8.0, -10.0), dvec3(0.0, -12.0, -30.0), 9.0, 6.0), 8.0);
   d = smooth_union(
@@ -94,11 +102,11 @@ double eye_socket(const dvec3& p)
 
 double nose_opening(const dvec3& p)
 {
-  const double pear = smooth_union(
-    ellipsoid_distance(p, dvec3(6.0, 84.0, -28.0), dvec3(8.0, 22.0, 9.0)),
-    ellipsoid_distance(p, dvec3(2.0, 86.0, -17.0), dvec3(6.0, 18.0, 14.0)), 5.0);
-  return std::min(
-    pear, ellipsoid_distance(p, dvec3(5.0, 58.0, -20.0), dvec3(9.0, 36.0, 19.0)));
+  const double pear =
+    smooth_union(ellipsoid_distance(p, dvec3(6.0, 84.0, -28.0), dvec3(8.0, 22.0, 9.0)),
+      ellipsoid_distance(p, dvec3(2.0, 86.0, -17.0), dvec3(6.0, 18.0, 14.0)),
+      5.0);
+  return std::min(pear, ellipsoid_distance(p, dvec3(5.0, 58.0, -20.0), dvec3(9.0, 36.0, 19.0)));
 }
 
 double skull_surface(const dvec3& place)
@@ -121,8 +129,8 @@ double skull_surface(const dvec3& place)
   d = smooth_difference(d, nose_opening(p), 2.0);
   // The palate, and the ridge that holds the upper teeth.
   d = smooth_union(d, ellipsoid_distance(p, dvec3(0.0, 46.0, -42.0), dvec3(24.0, 27.0, 3.0)), 3.0);
-  d = smooth_union(d,
-    tube_distance(dvec3(p.x, p.y, 0.6 * p.z), arch(27.0, 74.0, 34.0, -27.6), 4.6), 5.0);
+  d = smooth_union(
+    d, tube_distance(dvec3(p.x, p.y, 0.6 * p.z), arch(27.0, 74.0, 34.0, -27.6), 4.6), 5.0);
   // The septum's bone.
   d = std::min(d, box_distance(p, dvec3(0.0, 52.0, -20.0), dvec3(1.0, 26.0, 22.0), 0.8));
   // Where the spinal cord, and the ear's canal, come through.
@@ -137,19 +145,25 @@ double lower_jaw(const dvec3& place)
   const dvec3 p = mirrored(place);
   const dvec3 tall(p.x, p.y, 0.65 * p.z);
   double d = tube_distance(tall,
-    { dvec3(0.0, 75.0, -57.0), dvec3(14.0, 72.0, -57.0), dvec3(27.0, 56.0, -56.0),
-      dvec3(38.0, 34.0, -53.0), dvec3(46.0, 14.0, -47.5) }, 6.4);
+    { dvec3(0.0, 75.0, -57.0),
+      dvec3(14.0, 72.0, -57.0),
+      dvec3(27.0, 56.0, -56.0),
+      dvec3(38.0, 34.0, -53.0),
+      dvec3(46.0, 14.0, -47.5) },
+    6.4);
   d = smooth_union(
     d, tube_distance(dvec3(p.x, p.y, 0.6 * p.z), arch(26.0, 71.0, 34.0, -48.0), 4.2), 6.0);
   d = smooth_union(d, ellipsoid_distance(p, dvec3(0.0, 77.0, -93.0), dvec3(13.0, 6.0, 8.0)), 6.0);
   // The branch that rises to the joint, flat in x.
   const dvec3 flat(1.8 * (p.x - 48.0), p.y, p.z);
-  const double branch = smooth_union(
-    capsule_distance(flat, dvec3(-2.0, 13.0, -70.0), dvec3(6.0, 6.0, -24.0), 13.0, 7.0),
-    capsule_distance(flat, dvec3(0.0, 23.0, -56.0), dvec3(0.0, 28.0, -22.0), 10.0, 3.0), 6.0) / 1.8;
+  const double branch =
+    smooth_union(
+      capsule_distance(flat, dvec3(-2.0, 13.0, -70.0), dvec3(6.0, 6.0, -24.0), 13.0, 7.0),
+      capsule_distance(flat, dvec3(0.0, 23.0, -56.0), dvec3(0.0, 28.0, -22.0), 10.0, 3.0),
+      6.0) /
+    1.8;
   d = smooth_union(d, branch, 6.0);
-  return smooth_union(
-    d, ellipsoid_distance(p, dvec3(52.0, 4.0, -19.0), dvec3(9.0, 4.5, 5.0)), 4.0);
+  return smooth_union(d, ellipsoid_distance(p, dvec3(52.0, 4.0, -19.0), dvec3(9.0, 4.5, 5.0)), 4.0);
 }
 
 /// One vertebra around the spinal canal at (0, -34): body, arch, spine, side processes.
@@ -158,8 +172,10 @@ double vertebra(const dvec3& p, double z)
   const dvec3 q(p.x, p.y, p.z - z);
   double d = ellipsoid_distance(q, dvec3(0.0, -15.0, 0.0), dvec3(15.0, 11.0, 8.5));
   d = std::max(d, std::fabs(q.z) - 6.8);
-  d = smooth_union(d, torus_distance(dvec3(q.x, q.y, 0.7 * q.z), dvec3(0.0, -35.0, 0.0), 15.5, 3.0), 3.0);
-  d = smooth_union(d, capsule_distance(q, dvec3(14.0, -27.0, 0.0), dvec3(26.0, -24.0, -2.0), 5.0, 3.5), 4.0);
+  d = smooth_union(
+    d, torus_distance(dvec3(q.x, q.y, 0.7 * q.z), dvec3(0.0, -35.0, 0.0), 15.5, 3.0), 3.0);
+  d = smooth_union(
+    d, capsule_distance(q, dvec3(14.0, -27.0, 0.0), dvec3(26.0, -24.0, -2.0), 5.0, 3.5), 4.0);
   return smooth_union(
     d, capsule_distance(q, dvec3(0.0, -51.0, -1.0), dvec3(4.0, -68.0, -8.0), 3.5, 3.0), 3.0);
 }
@@ -169,10 +185,12 @@ double spine(const dvec3& place)
   const dvec3 p = mirrored(place);
   // The atlas is a ring with broad sides; the axis sends its tooth up through it.
   double d = torus_distance(dvec3(0.8 * p.x, p.y, 0.8 * p.z), dvec3(0.0, -30.0, -38.4), 19.0, 3.6);
-  d = smooth_union(d, ellipsoid_distance(p, dvec3(24.0, -22.0, -46.0), dvec3(10.0, 10.0, 8.0)), 4.0);
+  d =
+    smooth_union(d, ellipsoid_distance(p, dvec3(24.0, -22.0, -46.0), dvec3(10.0, 10.0, 8.0)), 4.0);
   d = smooth_union(
     d, capsule_distance(p, dvec3(28.0, -26.0, -48.0), dvec3(40.0, -28.0, -49.0), 4.5, 3.5), 4.0);
-  d = std::min(d, capsule_distance(p, dvec3(0.0, -18.0, -42.0), dvec3(0.0, -16.0, -62.0), 4.5, 5.5));
+  d =
+    std::min(d, capsule_distance(p, dvec3(0.0, -18.0, -42.0), dvec3(0.0, -16.0, -62.0), 4.5, 5.5));
   for (double z : { -67.0, -85.0, -103.0, -121.0 })
   {
     d = std::min(d, vertebra(p, z));
@@ -185,9 +203,8 @@ double spine(const dvec3& place)
 double suture(const dvec3& p)
 {
   const double far = 14.0; // more than the zigzag's swing
-  if (p.z < 5.0 ||
-    (std::fabs(p.x) > far && std::fabs(p.y - 14.0 + 0.12 * (p.z - 60.0)) > far &&
-      std::fabs(p.z - 66.0 + 0.75 * std::fabs(p.x)) > far))
+  if (p.z < 5.0 || (std::fabs(p.x) > far && std::fabs(p.y - 14.0 + 0.12 * (p.z - 60.0)) > far &&
+                     std::fabs(p.z - 66.0 + 0.75 * std::fabs(p.x)) > far))
   {
     return far;
   }
@@ -252,17 +269,21 @@ void paint_teeth(PaintedVolume& head, bool upper)
         d = smooth_difference(d, sphere_distance(q, dvec3(0.0, 0.0, -crown - 1.2), 2.6), 1.0);
         const dvec3 r(std::fabs(q.x), q.y, q.z);
         return smooth_union(d,
-          capsule_distance(r, dvec3(0.22 * width, 0.0, crown - 1.0),
-            dvec3(0.24 * width, 0.0, crown + root - 4.0), 2.2, 0.9), 2.0);
+          capsule_distance(r,
+            dvec3(0.22 * width, 0.0, crown - 1.0),
+            dvec3(0.24 * width, 0.0, crown + root - 4.0),
+            2.2,
+            0.9),
+          2.0);
       }
       return smooth_union(d,
-        capsule_distance(q, dvec3(0.0, 0.0, crown - 1.0), dvec3(0.0, 0.4, crown + root - 4.0),
-          0.36 * width, 0.9), 2.0);
+        capsule_distance(
+          q, dvec3(0.0, 0.0, crown - 1.0), dvec3(0.0, 0.4, crown + root - 4.0), 0.36 * width, 0.9),
+        2.0);
     };
     // Enamel over the crown only, dentine within, pulp at the heart.
     head.paint(tooth, hu::dentine);
-    head.paint(
-      [=](const dvec3& place)
+    head.paint([=](const dvec3& place)
       { return smooth_intersection(tooth(place), local(place).z - crown + 0.6, 0.8); },
       { { 0.0, hu::enamel }, { 1.5, hu::dentine } });
     head.paint(
@@ -282,14 +303,16 @@ void paint_air_in_bone(PaintedVolume& head, std::uint32_t seed)
   const auto sinuses = [](const dvec3& place)
   {
     const dvec3 p = mirrored(place);
-    const double jaw = smooth_union(
-      ellipsoid_distance(p, dvec3(27.0, 56.0, -24.0), dvec3(10.0, 15.0, 11.0)),
-      ellipsoid_distance(p, dvec3(24.0, 56.0, -32.0), dvec3(7.0, 11.0, 9.0)), 5.0);
-    const double brow = smooth_union(
-      ellipsoid_distance(p, dvec3(9.0, 69.5, 25.0), dvec3(7.0, 3.2, 8.0)),
-      ellipsoid_distance(p, dvec3(19.0, 66.5, 23.0), dvec3(8.0, 2.8, 5.0)), 4.0);
-    const double wedge = std::max(
-      ellipsoid_distance(p, dvec3(7.0, 22.0, -5.0), dvec3(8.0, 12.0, 9.0)), 0.8 - p.x);
+    const double jaw =
+      smooth_union(ellipsoid_distance(p, dvec3(27.0, 56.0, -24.0), dvec3(10.0, 15.0, 11.0)),
+        ellipsoid_distance(p, dvec3(24.0, 56.0, -32.0), dvec3(7.0, 11.0, 9.0)),
+        5.0);
+    const double brow =
+      smooth_union(ellipsoid_distance(p, dvec3(9.0, 69.5, 25.0), dvec3(7.0, 3.2, 8.0)),
+        ellipsoid_distance(p, dvec3(19.0, 66.5, 23.0), dvec3(8.0, 2.8, 5.0)),
+        4.0);
+    const double wedge =
+      std::max(ellipsoid_distance(p, dvec3(7.0, 22.0, -5.0), dvec3(8.0, 12.0, 9.0)), 0.8 - p.x);
     return std::min({ jaw, brow, wedge });
   };
   head.paint(sinuses, { { 0.0, hu::mucosa }, { 0.8, hu::air } });
@@ -303,26 +326,18 @@ void paint_air_in_bone(PaintedVolume& head, std::uint32_t seed)
       return mix(hu::air, hu::spongy_bone, smooth_ramp(n, 0.58, 0.72));
     };
   };
-  head.paint(
-    [](const dvec3& p)
-    {
-      return ellipsoid_distance(mirrored(p), dvec3(8.5, 52.0, 1.0), dvec3(4.5, 19.0, 12.0));
-    },
+  head.paint([](const dvec3& p)
+    { return ellipsoid_distance(mirrored(p), dvec3(8.5, 52.0, 1.0), dvec3(4.5, 19.0, 12.0)); },
     { { 0.0, honeycomb(8.0) } });
-  head.paint(
-    [](const dvec3& p)
-    {
-      return ellipsoid_distance(mirrored(p), dvec3(53.0, -22.0, -24.0), dvec3(6.5, 8.5, 14.0));
-    },
+  head.paint([](const dvec3& p)
+    { return ellipsoid_distance(mirrored(p), dvec3(53.0, -22.0, -24.0), dvec3(6.5, 8.5, 14.0)); },
     { { 0.0, honeycomb(5.0) } });
   // The middle ear, and the snail of the inner one in the hardest bone.
   head.paint([](const dvec3& p)
     { return ellipsoid_distance(mirrored(p), dvec3(45.0, -3.0, -9.0), dvec3(3.0, 5.0, 7.0)); },
     hu::air);
   head.paint([](const dvec3& p)
-    {
-      return torus_distance(mirrored(p), dvec3(36.0, -4.0, -9.0), 3.0, 1.1);
-    },
+    { return torus_distance(mirrored(p), dvec3(36.0, -4.0, -9.0), 3.0, 1.1); },
     hu::cerebrospinal_fluid);
 }
 
@@ -332,7 +347,8 @@ double cranial_cavity(const dvec3& place)
 {
   const dvec3 p = mirrored(place);
   double d = ellipsoid_distance(p, dvec3(0.0, -12.0, 56.0), dvec3(61.0, 79.0, 49.0));
-  d = smooth_union(d, ellipsoid_distance(p, dvec3(20.0, -40.0, 50.0), dvec3(46.0, 50.0, 48.0)), 14.0);
+  d =
+    smooth_union(d, ellipsoid_distance(p, dvec3(20.0, -40.0, 50.0), dvec3(46.0, 50.0, 48.0)), 14.0);
   d = smooth_union(d, ellipsoid_distance(p, dvec3(36.0, 6.0, 16.0), dvec3(26.0, 34.0, 27.0)), 12.0);
   return smooth_union(
     d, ellipsoid_distance(p, dvec3(0.0, -50.0, 4.0), dvec3(53.0, 39.0, 31.0)), 12.0);
@@ -356,19 +372,21 @@ void paint_skull(PaintedVolume& head, std::uint32_t seed)
   head.paint(skull_surface,
     { { 0.0, outer_table }, { 1.9, sponge(3.2, hu::marrow, 2.0 * hu::spongy_bone - hu::marrow) } });
   head.paint([](const dvec3& p) { return cranial_cavity(p) - 2.0; }, hu::dense_bone);
-  head.paint([](const dvec3& p)
+  head.paint(
+    [](const dvec3& p)
     {
       return capsule_distance(
         mirrored(p), dvec3(46.0, -7.0, -10.0), dvec3(20.0, 4.0, -7.0), 7.0, 5.0);
     },
     hu::dense_bone + 200.0);
-  head.paint(lower_jaw,
-    { { 0.0, hu::bone + 200.0 }, { 2.4, sponge(3.2, hu::marrow, 700.0) } });
+  head.paint(lower_jaw, { { 0.0, hu::bone + 200.0 }, { 2.4, sponge(3.2, hu::marrow, 700.0) } });
   head.paint(spine, { { 0.0, hu::bone }, { 1.5, sponge(2.6, 150.0, 550.0) } });
-  head.paint([](const dvec3& p) // the hyoid
+  head.paint(
+    [](const dvec3& p) // the hyoid
     {
       return tube_distance(mirrored(p),
-        { dvec3(0.0, 32.0, -100.0), dvec3(10.0, 29.0, -100.0), dvec3(20.0, 10.0, -97.0) }, 2.4);
+        { dvec3(0.0, 32.0, -100.0), dvec3(10.0, 29.0, -100.0), dvec3(20.0, 10.0, -97.0) },
+        2.4);
     },
     hu::bone - 300.0);
   paint_teeth(head, true);

@@ -53,9 +53,22 @@ float lerp(float a, float b, float t)
 /// them twice, as in Perlin's code.
 float gradient(std::uint32_t hash, float x, float y, float z)
 {
-  static const float directions[16][3] = { { 1, 1, 0 }, { -1, 1, 0 }, { 1, -1, 0 }, { -1, -1, 0 },
-    { 1, 0, 1 }, { -1, 0, 1 }, { 1, 0, -1 }, { -1, 0, -1 }, { 0, 1, 1 }, { 0, -1, 1 },
-    { 0, 1, -1 }, { 0, -1, -1 }, { 1, 1, 0 }, { -1, 1, 0 }, { 0, -1, 1 }, { 0, -1, -1 } };
+  static const float directions[16][3] = { { 1, 1, 0 },
+    { -1, 1, 0 },
+    { 1, -1, 0 },
+    { -1, -1, 0 },
+    { 1, 0, 1 },
+    { -1, 0, 1 },
+    { 1, 0, -1 },
+    { -1, 0, -1 },
+    { 0, 1, 1 },
+    { 0, -1, 1 },
+    { 0, 1, -1 },
+    { 0, -1, -1 },
+    { 1, 1, 0 },
+    { -1, 1, 0 },
+    { 0, -1, 1 },
+    { 0, -1, -1 } };
   const float* d = directions[hash >> 28];
   return x * d[0] + y * d[1] + z * d[2];
 }
@@ -103,9 +116,11 @@ float perlin_noise(const glm::dvec3& place, std::uint32_t seed)
     const float dz = z - static_cast<float>(k);
     const std::uint32_t i = c.i[0], j = c.i[1], l = c.i[2] + k;
     const float near = lerp(gradient(hash_lattice(i, j, l, key), x, y, dz),
-      gradient(hash_lattice(i + 1, j, l, key), x - 1.0f, y, dz), u);
+      gradient(hash_lattice(i + 1, j, l, key), x - 1.0f, y, dz),
+      u);
     const float far = lerp(gradient(hash_lattice(i, j + 1, l, key), x, y - 1.0f, dz),
-      gradient(hash_lattice(i + 1, j + 1, l, key), x - 1.0f, y - 1.0f, dz), u);
+      gradient(hash_lattice(i + 1, j + 1, l, key), x - 1.0f, y - 1.0f, dz),
+      u);
     layer[k] = lerp(near, far, v);
   }
   const float value = lerp(layer[0], layer[1], w) / largest_perlin;
@@ -148,11 +163,11 @@ float worley_noise(const glm::dvec3& place, std::uint32_t seed)
           hash_lattice(c.i[0] + ni - 1u, c.i[1] + nj - 1u, c.i[2] + nk - 1u, key);
         // Ten bits an axis, at the middle of each of 1024 steps.
         const float dx = static_cast<float>(ni - 1) +
-          (static_cast<float>(h & 1023u) + 0.5f) * (1.0f / 1024.0f) - c.f[0];
+                         (static_cast<float>(h & 1023u) + 0.5f) * (1.0f / 1024.0f) - c.f[0];
         const float dy = static_cast<float>(nj - 1) +
-          (static_cast<float>((h >> 10) & 1023u) + 0.5f) * (1.0f / 1024.0f) - c.f[1];
+                         (static_cast<float>((h >> 10) & 1023u) + 0.5f) * (1.0f / 1024.0f) - c.f[1];
         const float dz = static_cast<float>(nk - 1) +
-          (static_cast<float>((h >> 20) & 1023u) + 0.5f) * (1.0f / 1024.0f) - c.f[2];
+                         (static_cast<float>((h >> 20) & 1023u) + 0.5f) * (1.0f / 1024.0f) - c.f[2];
         nearest = std::min(nearest, dx * dx + dy * dy + dz * dz);
       }
     }
@@ -177,10 +192,9 @@ glm::dvec3 warp(const glm::dvec3& place, double scale, double amplitude, std::ui
     return place;
   }
   const glm::dvec3 at = place / scale;
-  return place +
-    amplitude *
-    glm::dvec3(perlin_noise(at, substream(seed, 0)), perlin_noise(at, substream(seed, 1)),
-      perlin_noise(at, substream(seed, 2)));
+  return place + amplitude * glm::dvec3(perlin_noise(at, substream(seed, 0)),
+                               perlin_noise(at, substream(seed, 1)),
+                               perlin_noise(at, substream(seed, 2)));
 }
 
 }

@@ -36,9 +36,9 @@ struct Octaves
   double gain = 0.5;
 };
 
-/// Fractional Brownian motion over gradient noise: sum of gain^i perlin(lacunarity^i place) over the
-/// sum of gain^i. Range [-1, 1], mean 0. Each octave has a seed of its own.
-/// Its finest feature has the size lacunarity^-(count - 1).
+/// Fractional Brownian motion over gradient noise: sum of gain^i perlin(lacunarity^i place) over
+/// the sum of gain^i. Range [-1, 1], mean 0. Each octave has a seed of its own. Its finest feature
+/// has the size lacunarity^-(count - 1).
 float fbm(const glm::dvec3& place, std::uint32_t seed, const Octaves& octaves = {});
 
 /// The same over 1 - worley: billows, round and bulging with creases between. Range [0, 1], mean
@@ -48,7 +48,6 @@ float billow_fbm(const glm::dvec3& place, std::uint32_t seed, const Octaves& oct
 /// Domain warp: the place moved by a vector of gradient noise, at most `amplitude` along each axis
 /// (in the unit of the place) and with features of the size `scale` (the same unit; not above 0
 /// leaves the place alone).
-glm::dvec3 warp(
-  const glm::dvec3& place, double scale, double amplitude, std::uint32_t seed);
+glm::dvec3 warp(const glm::dvec3& place, double scale, double amplitude, std::uint32_t seed);
 
 }

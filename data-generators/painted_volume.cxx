@@ -13,8 +13,8 @@ namespace brume
 
 namespace
 {
-constexpr int blocks = 16;        ///< along each axis: a first, coarse sorting
-constexpr int cells_a_block = 4;  ///< along each axis
+constexpr int blocks = 16;       ///< along each axis: a first, coarse sorting
+constexpr int cells_a_block = 4; ///< along each axis
 constexpr int cells = blocks * cells_a_block;
 /// How far a shape is kept beyond the reach that its distance gives: an ellipsoid's distance is
 /// right at its surface only.
@@ -38,8 +38,12 @@ void PaintedVolume::paint(Distance distance, std::vector<Layer> layers)
   m_shapes.push_back({ std::move(distance), std::move(layers) });
 }
 
-double PaintedVolume::blend(const Shape& shape, int first, int last, bool covered,
-  const glm::dvec3& place, double below) const
+double PaintedVolume::blend(const Shape& shape,
+  int first,
+  int last,
+  bool covered,
+  const glm::dvec3& place,
+  double below) const
 {
   double depth = 0.0;
   const auto layer_value = [&](const Layer& layer)
@@ -63,9 +67,8 @@ double PaintedVolume::blend(const Shape& shape, int first, int last, bool covere
   for (int l = first; l < last; ++l)
   {
     const Layer& layer = shape.layers[l];
-    const double cover = covered && l == first
-      ? 1.0
-      : smooth_ramp(depth - layer.depth, -0.5 * m_edge, 0.5 * m_edge);
+    const double cover =
+      covered && l == first ? 1.0 : smooth_ramp(depth - layer.depth, -0.5 * m_edge, 0.5 * m_edge);
     if (cover > 0.0)
     {
       below = mix(below, layer_value(layer), cover);
@@ -74,8 +77,9 @@ double PaintedVolume::blend(const Shape& shape, int first, int last, bool covere
   return below;
 }
 
-std::vector<PaintedVolume::Entry> PaintedVolume::entries_of(
-  const glm::dvec3& centre, double radius, const std::vector<std::uint16_t>& candidates) const
+std::vector<PaintedVolume::Entry> PaintedVolume::entries_of(const glm::dvec3& centre,
+  double radius,
+  const std::vector<std::uint16_t>& candidates) const
 {
   const double reach = caution * (radius + 0.5 * m_edge);
   std::vector<Entry> entries;
@@ -101,8 +105,8 @@ std::vector<PaintedVolume::Entry> PaintedVolume::entries_of(
     }
     if (last > first)
     {
-      entries.push_back({ s, static_cast<std::uint8_t>(first),
-        static_cast<std::uint8_t>(last), covered });
+      entries.push_back(
+        { s, static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(last), covered });
     }
   }
   return entries;
@@ -115,21 +119,23 @@ void PaintedVolume::finish()
   std::vector<std::uint16_t> all(m_shapes.size());
   std::iota(all.begin(), all.end(), std::uint16_t(0));
   m_cells.assign(static_cast<std::size_t>(cells) * cells * cells, {});
-  tbb::parallel_for(0, blocks * blocks * blocks,
+  tbb::parallel_for(0,
+    blocks * blocks * blocks,
     [&](int b)
     {
       const glm::ivec3 block(b % blocks, (b / blocks) % blocks, b / (blocks * blocks));
       std::vector<std::uint16_t> near;
-      for (const Entry& e : entries_of(m_box.lower + (glm::dvec3(block) + 0.5) * block_size,
-             0.5 * glm::length(block_size), all))
+      for (const Entry& e :
+        entries_of(
+          m_box.lower + (glm::dvec3(block) + 0.5) * block_size, 0.5 * glm::length(block_size), all))
       {
         near.push_back(e.shape);
       }
       for (int c = 0; c < cells_a_block * cells_a_block * cells_a_block; ++c)
       {
-        const glm::ivec3 cell = block * cells_a_block +
-          glm::ivec3(c % cells_a_block, (c / cells_a_block) % cells_a_block,
-            c / (cells_a_block * cells_a_block));
+        const glm::ivec3 cell = block * cells_a_block + glm::ivec3(c % cells_a_block,
+                                                          (c / cells_a_block) % cells_a_block,
+                                                          c / (cells_a_block * cells_a_block));
         m_cells[(static_cast<std::size_t>(cell.z) * cells + cell.y) * cells + cell.x] = entries_of(
           m_box.lower + (glm::dvec3(cell) + 0.5) * cell_size, 0.5 * glm::length(cell_size), near);
       }

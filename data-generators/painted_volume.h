@@ -70,10 +70,15 @@ private:
     bool covered;
   };
 
-  double blend(const Shape& shape, int first, int last, bool covered, const glm::dvec3& place,
+  double blend(const Shape& shape,
+    int first,
+    int last,
+    bool covered,
+    const glm::dvec3& place,
     double below) const;
   /// What shows within `radius` of a centre, of the shapes named.
-  std::vector<Entry> entries_of(const glm::dvec3& centre, double radius,
+  std::vector<Entry> entries_of(const glm::dvec3& centre,
+    double radius,
     const std::vector<std::uint16_t>& candidates) const;
 
   Box m_box;

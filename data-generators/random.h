@@ -31,8 +31,10 @@ inline std::uint32_t substream(std::uint32_t seed, std::uint32_t stream)
 
 /// The hash of a place on the integer lattice. `key` is a seed that has been through substream().
 /// Coordinates count modulo 2^32.
-inline std::uint32_t hash_lattice(
-  std::uint32_t i, std::uint32_t j, std::uint32_t k, std::uint32_t key)
+inline std::uint32_t hash_lattice(std::uint32_t i,
+  std::uint32_t j,
+  std::uint32_t k,
+  std::uint32_t key)
 {
   return mix_bits((i * 0x8da6b343u + j * 0xd8163841u + k * 0xcb1ab31fu) ^ key);
 }
@@ -44,7 +46,8 @@ inline float unit_float(std::uint32_t h)
 }
 
 /// Natural logarithm of a positive normal number, within 1e-12 of it, with the same bits on every
-/// machine. x = m 2^e with m in [sqrt(1/2), sqrt(2)], ln m = 2 artanh((m - 1)/(m + 1)) by its series.
+/// machine. x = m 2^e with m in [sqrt(1/2), sqrt(2)], ln m = 2 artanh((m - 1)/(m + 1)) by its
+/// series.
 inline double portable_log(double x)
 {
   std::uint64_t bits;
@@ -79,11 +82,11 @@ inline double unit_normal(std::uint32_t h)
   {
     const double r = 0.180625 - q * q;
     return q * (((59.109374720 * r + 159.29113202) * r + 50.434271938) * r + 3.3871327179) /
-      (((67.187563600 * r + 78.757757664) * r + 17.895169469) * r + 1.0);
+           (((67.187563600 * r + 78.757757664) * r + 17.895169469) * r + 1.0);
   }
   const double r = std::sqrt(-portable_log(q < 0.0 ? p : 1.0 - p)) - 1.6; // at most 3.2 here
   const double x = (((0.17023821103 * r + 1.3067284816) * r + 2.7568153900) * r + 1.4234372777) /
-    ((0.12021132975 * r + 0.73700164250) * r + 1.0);
+                   ((0.12021132975 * r + 0.73700164250) * r + 1.0);
   return q < 0.0 ? -x : x;
 }
 

@@ -20,7 +20,8 @@ Grid grid_over(const Box& box, int size)
   const glm::dvec3 side = box.upper - box.lower;
   if (size < 2)
   {
-    throw std::invalid_argument("a grid needs 2 voxels or more a side, not " + std::to_string(size));
+    throw std::invalid_argument(
+      "a grid needs 2 voxels or more a side, not " + std::to_string(size));
   }
   if (!(side.x > 0.0 && side.y > 0.0 && side.z > 0.0))
   {
@@ -39,7 +40,8 @@ Grid grid_over(const Box& box, int size)
 }
 
 bool for_each_row(const Extent& extent,
-  const std::function<void(int j, int k, std::size_t offset)>& row, const Progress& progress)
+  const std::function<void(int j, int k, std::size_t offset)>& row,
+  const Progress& progress)
 {
   const long width = extent.last.x - extent.first.x + 1;
   const long rows_a_slice = extent.last.y - extent.first.y + 1;
@@ -71,7 +73,11 @@ bool for_each_row(const Extent& extent,
   return true;
 }
 
-bool sample(const Field& field, double time, const Grid& grid, const Extent& extent, float* values,
+bool sample(const Field& field,
+  double time,
+  const Grid& grid,
+  const Extent& extent,
+  float* values,
   const Progress& progress)
 {
   return for_each_row(

@@ -14,9 +14,9 @@ namespace brume
 /// A dense grid of voxel centres: voxel (i, j, k) stands at origin + (i, j, k) * spacing.
 struct Grid
 {
-  glm::ivec3 dimensions{ 0 };  ///< voxels along each axis
-  glm::dvec3 origin{ 0.0 };    ///< centre of voxel (0, 0, 0), world units
-  glm::dvec3 spacing{ 1.0 };   ///< world units between centres
+  glm::ivec3 dimensions{ 0 }; ///< voxels along each axis
+  glm::dvec3 origin{ 0.0 };   ///< centre of voxel (0, 0, 0), world units
+  glm::dvec3 spacing{ 1.0 };  ///< world units between centres
 
   glm::dvec3 place(int i, int j, int k) const
   {
@@ -33,7 +33,7 @@ struct Extent
   std::size_t voxels() const
   {
     return static_cast<std::size_t>(last.x - first.x + 1) * (last.y - first.y + 1) *
-      (last.z - first.z + 1);
+           (last.z - first.z + 1);
   }
 };
 
@@ -54,7 +54,11 @@ using Progress = std::function<bool(double)>;
 /// A voxel's value does not depend on the block, so pieces equal the whole.
 /// `values` has extent.voxels() elements, x fastest and z slowest. False if `progress` asked to
 /// stop; the values are then partly written.
-bool sample(const Field& field, double time, const Grid& grid, const Extent& extent, float* values,
+bool sample(const Field& field,
+  double time,
+  const Grid& grid,
+  const Extent& extent,
+  float* values,
   const Progress& progress = {});
 
 /// The loop below sample(), for those who do more with a voxel than ask a field: `row` fills the
@@ -62,6 +66,7 @@ bool sample(const Field& field, double time, const Grid& grid, const Extent& ext
 /// Rows run on all threads that TBB gives, in any order. An exception in `row` stops the work and
 /// comes out of here.
 bool for_each_row(const Extent& extent,
-  const std::function<void(int j, int k, std::size_t offset)>& row, const Progress& progress = {});
+  const std::function<void(int j, int k, std::size_t offset)>& row,
+  const Progress& progress = {});
 
 }

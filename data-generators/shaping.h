@@ -16,8 +16,8 @@ inline double mix(double a, double b, double t)
   return a + (b - a) * t;
 }
 
-/// The place of x between `from` and `to`, held to [0, 1]: 0 at `from`, 1 at `to`. Where the two are
-/// the same it is the step at that place: 0 below, 1 at it and above.
+/// The place of x between `from` and `to`, held to [0, 1]: 0 at `from`, 1 at `to`. Where the two
+/// are the same it is the step at that place: 0 below, 1 at it and above.
 inline double ramp(double x, double from, double to)
 {
   return from == to ? (x < from ? 0.0 : 1.0) : saturate((x - from) / (to - from));

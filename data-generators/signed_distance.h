@@ -2,7 +2,8 @@
 //
 // Each is exact, or no larger than the true distance outside, and changes by no more than the way
 // that one moves (a slope of at most 1, but for the ellipsoid, see there): what painted_volume.h
-// needs to leave shapes out. After Quilez, "Distance functions" (iquilezles.org/articles/distfunctions).
+// needs to leave shapes out. After Quilez, "Distance functions"
+// (iquilezles.org/articles/distfunctions).
 #pragma once
 
 #include <algorithm>
@@ -20,10 +21,11 @@ inline double sphere_distance(const glm::dvec3& p, const glm::dvec3& centre, dou
   return glm::length(p - centre) - radius;
 }
 
-/// Distance to an ellipsoid with axes along x, y, z, to first order: right at the surface. Outside it
-/// is at most the true distance, inside it is held to the smallest radius.
-inline double ellipsoid_distance(
-  const glm::dvec3& p, const glm::dvec3& centre, const glm::dvec3& radii)
+/// Distance to an ellipsoid with axes along x, y, z, to first order: right at the surface. Outside
+/// it is at most the true distance, inside it is held to the smallest radius.
+inline double ellipsoid_distance(const glm::dvec3& p,
+  const glm::dvec3& centre,
+  const glm::dvec3& radii)
 {
   const glm::dvec3 q = (p - centre) / radii;
   const double k0 = glm::length(q);
@@ -33,8 +35,11 @@ inline double ellipsoid_distance(
 }
 
 /// A line from a to b, thickened by a radius that runs from `ra` to `rb`.
-inline double capsule_distance(
-  const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, double ra, double rb)
+inline double capsule_distance(const glm::dvec3& p,
+  const glm::dvec3& a,
+  const glm::dvec3& b,
+  double ra,
+  double rb)
 {
   const glm::dvec3 along = b - a;
   const glm::dvec3 from = p - a;
@@ -44,8 +49,9 @@ inline double capsule_distance(
 }
 
 /// A chain of lines through the points, thickened by one radius.
-inline double tube_distance(
-  const glm::dvec3& p, const std::vector<glm::dvec3>& points, double radius)
+inline double tube_distance(const glm::dvec3& p,
+  const std::vector<glm::dvec3>& points,
+  double radius)
 {
   double nearest = glm::length(p - points.front()) - radius;
   for (std::size_t i = 1; i < points.size(); ++i)
@@ -56,17 +62,21 @@ inline double tube_distance(
 }
 
 /// A box of half sizes `half` (roundness included) along the axes, with edges rounded by a radius.
-inline double box_distance(
-  const glm::dvec3& p, const glm::dvec3& centre, const glm::dvec3& half, double roundness)
+inline double box_distance(const glm::dvec3& p,
+  const glm::dvec3& centre,
+  const glm::dvec3& half,
+  double roundness)
 {
   const glm::dvec3 q = glm::abs(p - centre) - (half - roundness);
   return glm::length(glm::max(q, glm::dvec3(0.0))) + std::min(std::max({ q.x, q.y, q.z }), 0.0) -
-    roundness;
+         roundness;
 }
 
 /// A ring around an axis along z.
-inline double torus_distance(
-  const glm::dvec3& p, const glm::dvec3& centre, double ring_radius, double tube_radius)
+inline double torus_distance(const glm::dvec3& p,
+  const glm::dvec3& centre,
+  double ring_radius,
+  double tube_radius)
 {
   const glm::dvec3 q = p - centre;
   const double r = std::sqrt(q.x * q.x + q.y * q.y) - ring_radius;

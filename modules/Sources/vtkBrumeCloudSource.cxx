@@ -42,12 +42,14 @@ const brume::Cumulus& vtkBrumeCloudSource::GetCloud()
   return *this->Cloud;
 }
 
-int vtkBrumeCloudSource::RequestInformation(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+int vtkBrumeCloudSource::RequestInformation(vtkInformation*,
+  vtkInformationVector**,
+  vtkInformationVector* outputs)
 {
   try
   {
-    brume::describe_grid(brume::grid_over(this->GetCloud().bounds(), this->Size), VTK_FLOAT,
+    brume::describe_grid(brume::grid_over(this->GetCloud().bounds(), this->Size),
+      VTK_FLOAT,
       outputs->GetInformationObject(0));
   }
   catch (const std::exception& problem)
@@ -58,8 +60,9 @@ int vtkBrumeCloudSource::RequestInformation(
   return 1;
 }
 
-int vtkBrumeCloudSource::RequestData(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+int vtkBrumeCloudSource::RequestData(vtkInformation*,
+  vtkInformationVector**,
+  vtkInformationVector* outputs)
 {
   vtkInformation* info = outputs->GetInformationObject(0);
   vtkImageData* image = vtkImageData::GetData(info);
@@ -70,9 +73,12 @@ int vtkBrumeCloudSource::RequestData(
     this->AllocateOutputData(image, info);
     image->GetPointData()->GetScalars()->SetName("density");
     const brume::Extent block = brume::extent_of(image->GetExtent());
-    if (block.voxels() > 0 &&
-      !brume::sample(cloud, this->Time, grid, block, static_cast<float*>(image->GetScalarPointer()),
-        brume::progress_of(this)))
+    if (block.voxels() > 0 && !brume::sample(cloud,
+                                this->Time,
+                                grid,
+                                block,
+                                static_cast<float*>(image->GetScalarPointer()),
+                                brume::progress_of(this)))
     {
       image->Initialize();
     }

@@ -6,10 +6,10 @@
  * "density" and lie in [0, 1], without a unit: multiply by an extinction per metre (0.02 to 0.1 for
  * real cumulus) to get the medium's extinction.
  *
- * World units are metres: the volume fills a box of Width x Width x 0.6 Width, x and y around 0, z up
- * from 0. The cloud's base is at 0.08 Width. Nothing of the cloud comes nearer to the box's faces than
- * 0.02 Width, so from Size = 26 on all outer voxels are exactly 0. The formula and its sources:
- * data-generators/cumulus.h.
+ * World units are metres: the volume fills a box of Width x Width x 0.6 Width, x and y around 0, z
+ * up from 0. The cloud's base is at 0.08 Width. Nothing of the cloud comes nearer to the box's
+ * faces than 0.02 Width, so from Size = 26 on all outer voxels are exactly 0. The formula and its
+ * sources: data-generators/cumulus.h.
  *
  * The source makes the pieces that it is asked for; together they equal the whole, to the bit. The
  * same settings give the same bytes on every machine and with any number of threads. It reports
@@ -40,8 +40,8 @@ public:
 
   ///@{
   /**
-   * Voxels along the longest side of the volume (x and y). Voxels are cubes. Default 256, range 2 to
-   * 4096; outside it the nearest end.
+   * Voxels along the longest side of the volume (x and y). Voxels are cubes. Default 256, range 2
+   * to 4096; outside it the nearest end.
    */
   vtkSetClampMacro(Size, int, 2, 4096);
   vtkGetMacro(Size, int);
@@ -75,8 +75,8 @@ public:
 
   ///@{
   /**
-   * Size of the largest bulges of the noise, in metres. Default 160, range 0.1 to 1e6; outside it the
-   * nearest end.
+   * Size of the largest bulges of the noise, in metres. Default 160, range 0.1 to 1e6; outside it
+   * the nearest end.
    */
   vtkSetClampMacro(DetailSize, double, 0.1, 1e6);
   vtkGetMacro(DetailSize, double);
@@ -84,8 +84,8 @@ public:
 
   ///@{
   /**
-   * Octaves of the noise, each half as large and half as strong as the one before. Default 5, range 1
-   * to 8; outside it the nearest end. More costs time, and shows only if voxels are small enough.
+   * Octaves of the noise, each half as large and half as strong as the one before. Default 5, range
+   * 1 to 8; outside it the nearest end. More costs time, and shows only if voxels are small enough.
    */
   vtkSetClampMacro(Octaves, int, 1, 8);
   vtkGetMacro(Octaves, int);
@@ -93,8 +93,8 @@ public:
 
   ///@{
   /**
-   * How much cloud there is where the noise is 0: larger fills the cloud and smooths it, smaller frays
-   * it. Without a unit, default 0.12, range 0 to 1; outside it the nearest end.
+   * How much cloud there is where the noise is 0: larger fills the cloud and smooths it, smaller
+   * frays it. Without a unit, default 0.12, range 0 to 1; outside it the nearest end.
    */
   vtkSetClampMacro(Offset, double, 0.0, 1.0);
   vtkGetMacro(Offset, double);
@@ -120,8 +120,8 @@ public:
 
   ///@{
   /**
-   * Size of the domain warp's eddies, in metres. Default 300, range 0.1 to 1e6; outside it the nearest
-   * end.
+   * Size of the domain warp's eddies, in metres. Default 300, range 0.1 to 1e6; outside it the
+   * nearest end.
    */
   vtkSetClampMacro(WarpSize, double, 0.1, 1e6);
   vtkGetMacro(WarpSize, double);
@@ -140,8 +140,7 @@ protected:
   vtkBrumeCloudSource();
   ~vtkBrumeCloudSource() override;
 
-  int RequestInformation(
-    vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   int Size = 256;

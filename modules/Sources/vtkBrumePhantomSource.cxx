@@ -22,16 +22,19 @@ vtkBrumePhantomSource::vtkBrumePhantomSource()
 
 vtkBrumePhantomSource::~vtkBrumePhantomSource() = default;
 
-int vtkBrumePhantomSource::RequestInformation(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+int vtkBrumePhantomSource::RequestInformation(vtkInformation*,
+  vtkInformationVector**,
+  vtkInformationVector* outputs)
 {
-  brume::describe_grid(brume::grid_over(brume::head_ct_bounds(), this->Size), VTK_SHORT,
+  brume::describe_grid(brume::grid_over(brume::head_ct_bounds(), this->Size),
+    VTK_SHORT,
     outputs->GetInformationObject(0));
   return 1;
 }
 
-int vtkBrumePhantomSource::RequestData(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+int vtkBrumePhantomSource::RequestData(vtkInformation*,
+  vtkInformationVector**,
+  vtkInformationVector* outputs)
 {
   vtkInformation* info = outputs->GetInformationObject(0);
   vtkImageData* image = vtkImageData::GetData(info);
@@ -51,9 +54,13 @@ int vtkBrumePhantomSource::RequestData(
     this->AllocateOutputData(image, info);
     image->GetPointData()->GetScalars()->SetName("Hounsfield");
     const brume::Extent block = brume::extent_of(image->GetExtent());
-    if (block.voxels() > 0 &&
-      !brume::sample_head_ct(*this->Head, this->NoiseLevel, seed, grid, block,
-        static_cast<std::int16_t*>(image->GetScalarPointer()), brume::progress_of(this)))
+    if (block.voxels() > 0 && !brume::sample_head_ct(*this->Head,
+                                this->NoiseLevel,
+                                seed,
+                                grid,
+                                block,
+                                static_cast<std::int16_t*>(image->GetScalarPointer()),
+                                brume::progress_of(this)))
     {
       image->Initialize();
     }
@@ -62,8 +69,8 @@ int vtkBrumePhantomSource::RequestData(
   {
     image->Initialize();
     vtkErrorMacro("the phantom could not be made for the extent "
-      << extent[0] << ' ' << extent[1] << ' ' << extent[2] << ' ' << extent[3] << ' ' << extent[4]
-      << ' ' << extent[5] << ": " << problem.what());
+                  << extent[0] << ' ' << extent[1] << ' ' << extent[2] << ' ' << extent[3] << ' '
+                  << extent[4] << ' ' << extent[5] << ": " << problem.what());
     return 0;
   }
   return 1;

@@ -6,12 +6,12 @@
  * (air -1000, water 0, enamel 2600; each tissue's number in data-generators/hounsfield.h). Point
  * scalars are named "Hounsfield" and lie in [-1024, 3071].
  *
- * World units are millimetres, coordinates are RAS+: x grows from the patient's left to the patient's
- * right, y from back to front, z from foot to crown, with the origin at the middle of the volume
- * (DICOM's axes are LPS: x and y the other way). The volume fills a box of 192 x 240 x 256 mm, so
- * that Size = 256 gives 192 x 240 x 256 voxels of 1 mm. To tell left from right there is a ceramic
- * bead (4 mm radius, 2800 HU) on the patient's left temple, at (-75, 22, 24). What anatomy there is:
- * data-generators/head_ct.h.
+ * World units are millimetres, coordinates are RAS+: x grows from the patient's left to the
+ * patient's right, y from back to front, z from foot to crown, with the origin at the middle of the
+ * volume (DICOM's axes are LPS: x and y the other way). The volume fills a box of 192 x 240 x 256
+ * mm, so that Size = 256 gives 192 x 240 x 256 voxels of 1 mm. To tell left from right there is a
+ * ceramic bead (4 mm radius, 2800 HU) on the patient's left temple, at (-75, 22, 24). What anatomy
+ * there is: data-generators/head_ct.h.
  *
  * The source makes the pieces that it is asked for; together they equal the whole, to the bit. The
  * same settings give the same bytes on every machine and with any number of threads. It reports
@@ -56,8 +56,8 @@ public:
 
   ///@{
   /**
-   * Voxels along the longest side of the volume (for the head: z). Voxels are cubes; the other sides
-   * get as many as fit, at least 2. Default 256, range 2 to 4096; outside it the nearest end.
+   * Voxels along the longest side of the volume (for the head: z). Voxels are cubes; the other
+   * sides get as many as fit, at least 2. Default 256, range 2 to 4096; outside it the nearest end.
    */
   vtkSetClampMacro(Size, int, 2, 4096);
   vtkGetMacro(Size, int);
@@ -74,9 +74,9 @@ public:
 
   ///@{
   /**
-   * Standard deviation of the scanner's noise, in Hounsfield units: Gaussian, and independent in each
-   * voxel. Default 10, as a usual head scan has; 0 is none. Range 0 to 1000; outside it the nearest
-   * end.
+   * Standard deviation of the scanner's noise, in Hounsfield units: Gaussian, and independent in
+   * each voxel. Default 10, as a usual head scan has; 0 is none. Range 0 to 1000; outside it the
+   * nearest end.
    */
   vtkSetClampMacro(NoiseLevel, double, 0.0, 1000.0);
   vtkGetMacro(NoiseLevel, double);
@@ -84,9 +84,9 @@ public:
 
   ///@{
   /**
-   * Width over which a tissue passes into the next, in voxels: the partial volume of a voxel and the
-   * blur of a scanner. Default 1.5, range 0.1 to 10; outside it the nearest end. Small widths give
-   * stairs.
+   * Width over which a tissue passes into the next, in voxels: the partial volume of a voxel and
+   * the blur of a scanner. Default 1.5, range 0.1 to 10; outside it the nearest end. Small widths
+   * give stairs.
    */
   vtkSetClampMacro(EdgeWidth, double, 0.1, 10.0);
   vtkGetMacro(EdgeWidth, double);
@@ -96,8 +96,7 @@ protected:
   vtkBrumePhantomSource();
   ~vtkBrumePhantomSource() override;
 
-  int RequestInformation(
-    vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   int Kind = KindHeadCT;

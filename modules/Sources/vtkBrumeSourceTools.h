@@ -15,8 +15,9 @@ namespace brume
 /// Tells the pipeline the whole extent, origin, spacing and type of a grid's one scalar.
 inline void describe_grid(const Grid& grid, int scalar_type, vtkInformation* info)
 {
-  const int extent[6] = { 0, grid.dimensions.x - 1, 0, grid.dimensions.y - 1, 0,
-    grid.dimensions.z - 1 };
+  const int extent[6] = {
+    0, grid.dimensions.x - 1, 0, grid.dimensions.y - 1, 0, grid.dimensions.z - 1
+  };
   info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
   info->Set(vtkDataObject::ORIGIN(), grid.origin.x, grid.origin.y, grid.origin.z);
   info->Set(vtkDataObject::SPACING(), grid.spacing.x, grid.spacing.y, grid.spacing.z);

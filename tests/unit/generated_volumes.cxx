@@ -69,7 +69,8 @@ double around(double x, double y, double z, double reach)
   double sum = 0.0;
   for (int n = 0; n < 1000; ++n)
   {
-    sum += at(x + reach * ((n % 10) - 4.5) / 4.5, y + reach * ((n / 10 % 10) - 4.5) / 4.5,
+    sum += at(x + reach * ((n % 10) - 4.5) / 4.5,
+      y + reach * ((n / 10 % 10) - 4.5) / 4.5,
       z + reach * ((n / 100) - 4.5) / 4.5);
   }
   return sum / 1000;
@@ -81,11 +82,13 @@ TEST(SignedDistance, AgreesWithClosedForms)
 {
   EXPECT_DOUBLE_EQ(brume::sphere_distance({ 3, 4, 0 }, dvec3(0.0), 2.0), 3.0);
   EXPECT_NEAR(brume::ellipsoid_distance({ 6, 0, 0 }, dvec3(0.0), { 4, 2, 1 }), 2.0, 1e-12);
-  EXPECT_NEAR(brume::ellipsoid_distance({ 1, 1, 1 }, dvec3(0.0), dvec3(2.0)), std::sqrt(3.0) - 2.0, 1e-12);
+  EXPECT_NEAR(
+    brume::ellipsoid_distance({ 1, 1, 1 }, dvec3(0.0), dvec3(2.0)), std::sqrt(3.0) - 2.0, 1e-12);
   EXPECT_DOUBLE_EQ(brume::ellipsoid_distance(dvec3(0.0), dvec3(0.0), { 4, 2, 1 }), -1.0);
   EXPECT_DOUBLE_EQ(brume::capsule_distance({ 1, 5, 0 }, { 0, 0, 0 }, { 2, 0, 0 }, 1, 1), 4.0);
   EXPECT_DOUBLE_EQ(brume::capsule_distance({ 1, 0, 0 }, { 0, 0, 0 }, { 0, 0, 0 }, 0.5, 1), 0.5);
-  EXPECT_DOUBLE_EQ(brume::box_distance({ 5, 6, 0 }, dvec3(0.0), { 2, 2, 2 }, 0.5), std::sqrt(3.5 * 3.5 + 4.5 * 4.5) - 0.5);
+  EXPECT_DOUBLE_EQ(brume::box_distance({ 5, 6, 0 }, dvec3(0.0), { 2, 2, 2 }, 0.5),
+    std::sqrt(3.5 * 3.5 + 4.5 * 4.5) - 0.5);
   EXPECT_DOUBLE_EQ(brume::torus_distance({ 3, 0, 4 }, dvec3(0.0), 3.0, 1.0), 3.0);
   EXPECT_DOUBLE_EQ(brume::smooth_union(1.0, 5.0, 2.0), 1.0);
   EXPECT_DOUBLE_EQ(brume::smooth_union(1.0, 1.0, 2.0), 0.5);
@@ -99,10 +102,11 @@ TEST(PaintedVolume, LeavesOutOnlyWhatDoesNotShow)
   for (std::uint32_t n = 0; n < 40000; ++n)
   {
     const dvec3 u(brume::unit_float(brume::mix_bits(3 * n + 1)),
-      brume::unit_float(brume::mix_bits(3 * n + 2)), brume::unit_float(brume::mix_bits(3 * n + 3)));
+      brume::unit_float(brume::mix_bits(3 * n + 2)),
+      brume::unit_float(brume::mix_bits(3 * n + 3)));
     const dvec3 p = box.lower + u * (box.upper - box.lower);
-    worst = std::max(
-      worst, std::fabs(head().painting().value(p) - head().painting().value_by_all(p)));
+    worst =
+      std::max(worst, std::fabs(head().painting().value(p) - head().painting().value_by_all(p)));
   }
   EXPECT_LT(worst, 1e-9);
 }
@@ -130,7 +134,8 @@ TEST(HeadCT, BoneIsBoneAndBrainIsBrain)
   const double brain = around(25, -10, 75, 10);
   EXPECT_GT(brain, 20.0);
   EXPECT_LT(brain, 45.0);
-  // From outside to inside, at the right temple: skin, fat, outer table, diploe, inner table, fluid.
+  // From outside to inside, at the right temple: skin, fat, outer table, diploe, inner table,
+  // fluid.
   bool bone = false, fat = false, skin = false;
   double diploe = 0.0;
   int voxels_of_diploe = 0;
@@ -165,7 +170,8 @@ TEST(HeadCT, TellsThePatientsLeftFromRight)
 
 TEST(HeadCT, FacesForwardAndStandsUpright)
 {
-  // RAS+: the nose in front (+y), teeth below the eyes, the neck at the bottom, air above the crown.
+  // RAS+: the nose in front (+y), teeth below the eyes, the neck at the bottom, air above the
+  // crown.
   EXPECT_GT(at(0, 104, -28), -200.0) << "tip of the nose";
   EXPECT_EQ(at(0, -112, -28), -1000.0f);
   EXPECT_GT(at(4, 78.8, -60), 1500.0) << "upper incisor";
@@ -192,13 +198,14 @@ TEST(HeadCT, NoiseHasItsDeviationAndNoBias)
 
 TEST(HeadCT, HasTheSameBytesEverywhere)
 {
-  EXPECT_EQ(fingerprint(scanned(48, 10.0)), 0ull);
+  EXPECT_EQ(fingerprint(scanned(48, 10.0)), 8785335362997369654ull);
 }
 
 TEST(HeadCT, RefusesAnEdgeThatIsNone)
 {
   EXPECT_THROW(brume::HeadCT({ 1, 0.0 }), std::invalid_argument);
-  EXPECT_THROW(brume::HeadCT({ 1, std::numeric_limits<double>::quiet_NaN() }), std::invalid_argument);
+  EXPECT_THROW(
+    brume::HeadCT({ 1, std::numeric_limits<double>::quiet_NaN() }), std::invalid_argument);
 }
 
 TEST(Cumulus, FillsAFairPartOfItsBox)
@@ -243,7 +250,7 @@ TEST(Cumulus, NeverTouchesItsBox)
           for (int i = 0; i < grid.dimensions.x; ++i, ++n)
           {
             if (i == 0 || j == 0 || k == 0 || i == grid.dimensions.x - 1 ||
-              j == grid.dimensions.y - 1 || k == grid.dimensions.z - 1)
+                j == grid.dimensions.y - 1 || k == grid.dimensions.z - 1)
             {
               ASSERT_EQ(density[n], 0.0f) << i << ' ' << j << ' ' << k;
             }
@@ -279,7 +286,7 @@ TEST(Cumulus, TheWindMovesItsNoise)
 
 TEST(Cumulus, HasTheSameBytesEverywhere)
 {
-  EXPECT_EQ(fingerprint(sampled(brume::Cumulus(), 48, 3.5)), 0ull);
+  EXPECT_EQ(fingerprint(sampled(brume::Cumulus(), 48, 3.5)), 17658409127470333700ull);
 }
 
 TEST(Cumulus, RefusesOptionsThatMakeNoCloud)
@@ -323,7 +330,11 @@ TEST(Sampling, ReportsProgressAndStops)
   const brume::Grid grid = brume::grid_over(cloud.bounds(), 64);
   std::vector<float> values(brume::whole_extent(grid).voxels());
   std::vector<double> reports;
-  EXPECT_TRUE(brume::sample(cloud, 0.0, grid, brume::whole_extent(grid), values.data(),
+  EXPECT_TRUE(brume::sample(cloud,
+    0.0,
+    grid,
+    brume::whole_extent(grid),
+    values.data(),
     [&](double done)
     {
       reports.push_back(done);
@@ -335,7 +346,11 @@ TEST(Sampling, ReportsProgressAndStops)
   EXPECT_EQ(reports.back(), 1.0);
 
   int calls = 0;
-  EXPECT_FALSE(brume::sample(cloud, 0.0, grid, brume::whole_extent(grid), values.data(),
+  EXPECT_FALSE(brume::sample(cloud,
+    0.0,
+    grid,
+    brume::whole_extent(grid),
+    values.data(),
     [&](double) { return ++calls < 3; }));
   EXPECT_EQ(calls, 3);
 }

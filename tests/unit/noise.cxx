@@ -197,17 +197,18 @@ TEST(Noise, WarpMovesByNoMoreThanItsAmplitude)
 // generated volume: make it on purpose, and say so in CHANGELOG.md.
 TEST(Noise, HasTheSameBitsEverywhere)
 {
-  EXPECT_EQ(fingerprint([](const dvec3& p) { return brume::perlin_noise(p, 1); }),
-    0ull);
-  EXPECT_EQ(fingerprint([](const dvec3& p) { return brume::worley_noise(p, 1); }),
-    0ull);
+  EXPECT_EQ(
+    fingerprint([](const dvec3& p) { return brume::perlin_noise(p, 1); }), 3578823019006225644ull);
+  EXPECT_EQ(
+    fingerprint([](const dvec3& p) { return brume::worley_noise(p, 1); }), 2003843732513936470ull);
   EXPECT_EQ(fingerprint([](const dvec3& p) { return brume::fbm(brume::warp(p, 3, 1, 2), 1); }),
-    0ull);
+    646357105422222724ull);
 }
 
 TEST(Random, LogarithmAgreesWithTheLibrarys)
 {
-  for (double x : { 1e-300, 1e-10, 0.3, 0.70710678, 0.99999, 1.0, 1.4142135, 1.4142136, 7.0, 1e200 })
+  for (double x :
+    { 1e-300, 1e-10, 0.3, 0.70710678, 0.99999, 1.0, 1.4142135, 1.4142136, 7.0, 1e200 })
   {
     EXPECT_NEAR(brume::portable_log(x), std::log(x), 1e-12 * std::max(1.0, std::fabs(std::log(x))))
       << x;
@@ -216,12 +217,21 @@ TEST(Random, LogarithmAgreesWithTheLibrarys)
 
 TEST(Random, NormalDeviatesInvertTheNormalDistribution)
 {
-  for (std::uint32_t h : { 0u, 1000u, 1u << 20, 1u << 28, 1u << 30, 0x7fffffffu, 0xc0000000u,
-         0xf0000000u, 0xffffff00u, 0xffffffffu })
+  for (std::uint32_t h : { 0u,
+         1000u,
+         1u << 20,
+         1u << 28,
+         1u << 30,
+         0x7fffffffu,
+         0xc0000000u,
+         0xf0000000u,
+         0xffffff00u,
+         0xffffffffu })
   {
     const double p = (h + 0.5) / 4294967296.0;
     const double x = brume::unit_normal(h);
-    const double tail = p < 0.5 ? 0.5 * std::erfc(-x / std::sqrt(2.0)) : 0.5 * std::erfc(x / std::sqrt(2.0));
+    const double tail =
+      p < 0.5 ? 0.5 * std::erfc(-x / std::sqrt(2.0)) : 0.5 * std::erfc(x / std::sqrt(2.0));
     const double expected = p < 0.5 ? p : 1.0 - p;
     EXPECT_NEAR(tail / expected, 1.0, 3e-5) << h;
   }

@@ -95,7 +95,8 @@ TEST(PhantomSource, DescribesItsVolumeBeforeMakingIt)
   info->Get(vtkDataObject::ORIGIN(), origin);
   info->Get(vtkDataObject::SPACING(), spacing);
   EXPECT_EQ(std::vector<int>(extent, extent + 6), (std::vector<int>{ 0, 191, 0, 239, 0, 255 }));
-  EXPECT_EQ(std::vector<double>(origin, origin + 3), (std::vector<double>{ -95.5, -119.5, -127.5 }));
+  EXPECT_EQ(
+    std::vector<double>(origin, origin + 3), (std::vector<double>{ -95.5, -119.5, -127.5 }));
   EXPECT_EQ(std::vector<double>(spacing, spacing + 3), (std::vector<double>{ 1, 1, 1 }));
   EXPECT_EQ(source->GetOutput()->GetNumberOfPoints(), 0) << "nothing was made yet";
 }
@@ -153,9 +154,8 @@ TEST(PhantomSource, WorksAgainOnlyWhenASettingChanged)
   bool differs = false;
   for (vtkIdType n = 0; n < before->GetNumberOfPoints(); ++n)
   {
-    differs = differs ||
-      before->GetPointData()->GetScalars()->GetTuple1(n) !=
-        source->GetOutput()->GetPointData()->GetScalars()->GetTuple1(n);
+    differs = differs || before->GetPointData()->GetScalars()->GetTuple1(n) !=
+                           source->GetOutput()->GetPointData()->GetScalars()->GetTuple1(n);
   }
   EXPECT_TRUE(differs);
 }
