@@ -20,8 +20,8 @@ struct HeadCTOptions
   std::uint32_t seed = 1;
 
   /// Width over which one tissue passes into the next, millimetres: the partial volume of voxels of
-  /// about that size. Above 0. A good value is 1.5 voxels.
-  double edge = 1.5;
+  /// about that size. Above 0. A good value is 2 voxels.
+  double edge = 2.0;
 };
 
 /// A head in Hounsfield units at any place, in millimetres; time changes nothing.

@@ -85,7 +85,7 @@ public:
   ///@{
   /**
    * Width over which a tissue passes into the next, in voxels: the partial volume of a voxel and
-   * the blur of a scanner. Default 1.5, range 0.1 to 10; outside it the nearest end. Small widths
+   * the blur of a scanner. Default 2, range 0.1 to 10; outside it the nearest end. Small widths
    * give stairs.
    */
   vtkSetClampMacro(EdgeWidth, double, 0.1, 10.0);
@@ -103,7 +103,7 @@ protected:
   int Size = 256;
   int Seed = 1;
   double NoiseLevel = 10.0;
-  double EdgeWidth = 1.5;
+  double EdgeWidth = 2.0;
 
 private:
   vtkBrumePhantomSource(const vtkBrumePhantomSource&) = delete;
