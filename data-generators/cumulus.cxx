@@ -247,7 +247,8 @@ float Cumulus::value(const glm::dvec3& place, double time) const
   const glm::dvec3 unit = place / o.width;
   const double inside =
     std::min({ 0.5 - std::fabs(unit.x), 0.5 - std::fabs(unit.y), unit.z, box_height - unit.z });
-  if (!(inside > empty_border) || unit.z <= base_height - 0.03)
+  if (!std::isfinite(unit.x + unit.y + unit.z) || !(inside > empty_border) ||
+      unit.z <= base_height - 0.03)
   {
     return 0.0f;
   }

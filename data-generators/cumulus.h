@@ -52,8 +52,9 @@ struct CumulusOptions
 /// The recipe: heap(p) * (0.8 noise(p) + offset), a threshold, and a ramp upward from the base:
 ///   density = ramp(z) * saturate(crispness * (heap(p') * (0.8 noise(p' - wind t) + offset) - 1/4))
 /// p' is the warped place. heap is 1 - prod(1 - f_b^2) over the spheres b, f_b = (1 - |p' - c_b|^2
-/// / r_b^2) held to 0 and above. noise is half gradient fBm, half billows, in [0, 1]. The spheres
-/// are piled in three generations: towers on the base, buds on the towers, buds on the buds.
+/// / r_b^2) held to 0 and above. noise is half gradient fBm, half billows, its middle (0.33 … 0.63)
+/// stretched over [0, 1]. The spheres are piled in three generations: towers on the base, buds on
+/// the towers, buds on the buds.
 ///
 /// Density is exactly 0 within 0.02 width of the box's faces, and outside the box: a grid of 26
 /// voxels a side or more has an empty border.

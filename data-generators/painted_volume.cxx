@@ -148,7 +148,7 @@ double PaintedVolume::value(const glm::dvec3& place) const
   for (int a = 0; a < 3; ++a)
   {
     const double t = (place[a] - m_box.lower[a]) / (m_box.upper[a] - m_box.lower[a]);
-    index[a] = static_cast<int>(std::clamp(t * cells, 0.0, cells - 1.0));
+    index[a] = t > 0.0 ? static_cast<int>(std::min(t * cells, cells - 1.0)) : 0;
   }
   double result = m_background;
   for (const Entry& e : m_cells[(index[2] * cells + index[1]) * cells + index[0]])

@@ -258,6 +258,9 @@ TEST(Cumulus, NeverTouchesItsBox)
     }
   }
   EXPECT_EQ(brume::Cumulus().value({ 5000, 0, 500 }, 0.0), 0.0f);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(brume::Cumulus().value({ 0, nan, 500 }, 0.0), 0.0f);
+  EXPECT_EQ(brume::Cumulus().value({ 0, 0, nan }, 0.0), 0.0f);
 }
 
 TEST(Cumulus, HasAFlatBase)
