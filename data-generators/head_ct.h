@@ -29,7 +29,7 @@ struct HeadCTOptions
 /// Coordinates are RAS+: x grows from the patient's left to the patient's right, y from back to
 /// front, z from foot to crown. (DICOM's are LPS: x and y the other way.) The origin is the middle
 /// of the box, which is 192 x 240 x 256 mm; it
-/// lies below the brain, 2 mm below and 82 mm behind the pupils. The head is symmetric in x, but
+/// lies at the skull's base, 2 mm below and 82 mm behind the pupils. The head is symmetric in x, but
 /// for what tells left from right: a ceramic bead of 4 mm radius (2800 HU) on the patient's left
 /// temple, at head_marker, and the veins.
 ///
