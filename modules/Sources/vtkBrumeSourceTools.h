@@ -1,0 +1,46 @@
+// What the sources of this module share: how a brume::Grid is told to VTK. Not installed.
+#ifndef vtkBrumeSourceTools_h
+#define vtkBrumeSourceTools_h
+
+#include "data-generators/sampling.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+namespace brume
+{
+
+/// Tells the pipeline the whole extent, origin, spacing and type of a grid's one scalar.
+inline void describe_grid(const Grid& grid, int scalar_type, vtkInformation* info)
+{
+  const int extent[6] = {
+    0, grid.dimensions.x - 1, 0, grid.dimensions.y - 1, 0, grid.dimensions.z - 1
+  };
+  info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
+  info->Set(vtkDataObject::ORIGIN(), grid.origin.x, grid.origin.y, grid.origin.z);
+  info->Set(vtkDataObject::SPACING(), grid.spacing.x, grid.spacing.y, grid.spacing.z);
+  vtkDataObject::SetPointDataActiveScalarInfo(info, scalar_type, 1);
+  info->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
+}
+
+/// VTK's six numbers as first and last voxel.
+inline Extent extent_of(const int e[6])
+{
+  return { { e[0], e[2], e[4] }, { e[1], e[3], e[5] } };
+}
+
+/// Passes progress to VTK's observers, and their wish to abort back.
+inline Progress progress_of(vtkAlgorithm* algorithm)
+{
+  return [algorithm](double done)
+  {
+    algorithm->UpdateProgress(done);
+    return !algorithm->GetAbortExecute();
+  };
+}
+
+}
+
+#endif

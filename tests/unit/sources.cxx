@@ -1,0 +1,280 @@
+// The generated volumes as VTK pipeline sources.
+#include "vtkBrumeCloudSource.h"
+#include "vtkBrumePhantomSource.h"
+
+#include "data-generators/head_ct.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkDataArray.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <sstream>
+#include <vector>
+
+namespace
+{
+
+void count_progress(vtkObject*, unsigned long, void* counter, void*)
+{
+  ++*static_cast<int*>(counter);
+}
+
+void abort_at_once(vtkObject* caller, unsigned long, void*, void*)
+{
+  static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
+}
+
+/// Every voxel of pieces of odd sizes equals that voxel of the whole.
+void expect_pieces_equal_the_whole(vtkImageAlgorithm* whole, vtkImageAlgorithm* parts)
+{
+  whole->Update();
+  vtkImageData* all = whole->GetOutput();
+  int extent[6];
+  all->GetExtent(extent);
+  std::vector<int> cuts[3];
+  for (int a = 0; a < 3; ++a)
+  {
+    const int end = extent[2 * a + 1] + 1;
+    cuts[a] = { 0, end / 3 + 1, end - 2, end };
+  }
+  vtkIdType compared = 0;
+  for (int c = 0; c < 27; ++c)
+  {
+    const int i[3] = { c % 3, c / 3 % 3, c / 9 };
+    int piece[6];
+    for (int a = 0; a < 3; ++a)
+    {
+      piece[2 * a] = cuts[a][i[a]];
+      piece[2 * a + 1] = cuts[a][i[a] + 1] - 1;
+    }
+    parts->UpdateExtent(piece);
+    vtkImageData* part = parts->GetOutput();
+    ASSERT_LE(part->GetNumberOfPoints(), all->GetNumberOfPoints() / 3) << "only the piece was made";
+    for (int z = piece[4]; z <= piece[5]; ++z)
+      for (int y = piece[2]; y <= piece[3]; ++y)
+        for (int x = piece[0]; x <= piece[1]; ++x)
+        {
+          ASSERT_EQ(part->GetScalarComponentAsDouble(x, y, z, 0),
+            all->GetScalarComponentAsDouble(x, y, z, 0))
+            << x << ' ' << y << ' ' << z;
+          ++compared;
+        }
+  }
+  EXPECT_EQ(compared, all->GetNumberOfPoints());
+}
+
+void expect_abort_and_recovery(vtkImageAlgorithm* source)
+{
+  vtkNew<vtkCallbackCommand> abort;
+  abort->SetCallback(abort_at_once);
+  const unsigned long tag = source->AddObserver(vtkCommand::ProgressEvent, abort);
+  source->Update();
+  EXPECT_EQ(source->GetOutput()->GetNumberOfPoints(), 0);
+  source->RemoveObserver(tag);
+  source->Update();
+  EXPECT_GT(source->GetOutput()->GetNumberOfPoints(), 0);
+}
+
+}
+
+TEST(PhantomSource, DescribesItsVolumeBeforeMakingIt)
+{
+  vtkNew<vtkBrumePhantomSource> source;
+  source->UpdateInformation();
+  vtkInformation* info = source->GetOutputInformation(0);
+  int extent[6];
+  double origin[3], spacing[3];
+  info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent);
+  info->Get(vtkDataObject::ORIGIN(), origin);
+  info->Get(vtkDataObject::SPACING(), spacing);
+  EXPECT_EQ(std::vector<int>(extent, extent + 6), (std::vector<int>{ 0, 191, 0, 239, 0, 255 }));
+  EXPECT_EQ(
+    std::vector<double>(origin, origin + 3), (std::vector<double>{ -95.5, -119.5, -127.5 }));
+  EXPECT_EQ(std::vector<double>(spacing, spacing + 3), (std::vector<double>{ 1, 1, 1 }));
+  EXPECT_EQ(source->GetOutput()->GetNumberOfPoints(), 0) << "nothing was made yet";
+}
+
+TEST(PhantomSource, GivesHounsfieldUnitsInPatientSpace)
+{
+  vtkNew<vtkBrumePhantomSource> source;
+  source->SetSize(128);
+  source->SetNoiseLevel(0.0);
+  source->Update();
+  vtkImageData* scan = source->GetOutput();
+  EXPECT_EQ(scan->GetScalarType(), VTK_SHORT);
+  EXPECT_STREQ(scan->GetPointData()->GetScalars()->GetName(), "Hounsfield");
+  double marker[3] = { brume::head_marker[0], brume::head_marker[1], brume::head_marker[2] };
+  const auto value_at = [&](const double* p)
+  { return scan->GetPointData()->GetScalars()->GetTuple1(scan->FindPoint(p[0], p[1], p[2])); };
+  EXPECT_GT(value_at(marker), 2700.0);
+  marker[0] = -marker[0];
+  EXPECT_LT(value_at(marker), 200.0);
+  EXPECT_EQ(scan->GetScalarComponentAsDouble(0, 0, 127, 0), -1000.0);
+}
+
+TEST(PhantomSource, PiecesEqualTheWhole)
+{
+  vtkNew<vtkBrumePhantomSource> whole;
+  vtkNew<vtkBrumePhantomSource> parts;
+  whole->SetSize(40);
+  parts->SetSize(40);
+  expect_pieces_equal_the_whole(whole, parts);
+}
+
+TEST(PhantomSource, WorksAgainOnlyWhenASettingChanged)
+{
+  vtkNew<vtkBrumePhantomSource> source;
+  source->SetSize(24);
+  int reports = 0;
+  vtkNew<vtkCallbackCommand> counter;
+  counter->SetCallback(count_progress);
+  counter->SetClientData(&reports);
+  source->AddObserver(vtkCommand::ProgressEvent, counter);
+  source->Update();
+  const int first = reports;
+  EXPECT_GT(first, 0);
+  const vtkMTimeType time = source->GetOutput()->GetUpdateTime();
+  source->SetSize(24);
+  source->Update();
+  EXPECT_EQ(reports, first);
+  EXPECT_EQ(source->GetOutput()->GetUpdateTime(), time);
+
+  vtkNew<vtkImageData> before;
+  before->DeepCopy(source->GetOutput());
+  source->SetSeed(2);
+  source->Update();
+  EXPECT_GT(reports, first);
+  bool differs = false;
+  for (vtkIdType n = 0; n < before->GetNumberOfPoints(); ++n)
+  {
+    differs = differs || before->GetPointData()->GetScalars()->GetTuple1(n) !=
+                           source->GetOutput()->GetPointData()->GetScalars()->GetTuple1(n);
+  }
+  EXPECT_TRUE(differs);
+}
+
+TEST(PhantomSource, CanBeAborted)
+{
+  vtkNew<vtkBrumePhantomSource> source;
+  source->SetSize(64);
+  expect_abort_and_recovery(source);
+}
+
+TEST(PhantomSource, HoldsItsSettingsToTheirRanges)
+{
+  vtkNew<vtkBrumePhantomSource> source;
+  source->SetSize(1);
+  EXPECT_EQ(source->GetSize(), 2);
+  source->SetSize(100000);
+  EXPECT_EQ(source->GetSize(), 4096);
+  source->SetNoiseLevel(-1.0);
+  EXPECT_EQ(source->GetNoiseLevel(), 0.0);
+  source->SetKind(17);
+  EXPECT_EQ(source->GetKind(), static_cast<int>(vtkBrumePhantomSource::KindHeadCT));
+  std::ostringstream text;
+  source->Print(text);
+  EXPECT_NE(text.str().find("NoiseLevel: 0 HU"), std::string::npos);
+}
+
+TEST(PhantomSource, MakesTheSmallestVolume)
+{
+  vtkNew<vtkBrumePhantomSource> source;
+  source->SetSize(2);
+  source->Update();
+  EXPECT_EQ(source->GetOutput()->GetNumberOfPoints(), 8);
+}
+
+TEST(CloudSource, GivesADensityInMetres)
+{
+  vtkNew<vtkBrumeCloudSource> source;
+  source->SetSize(50);
+  source->Update();
+  vtkImageData* cloud = source->GetOutput();
+  EXPECT_EQ(cloud->GetScalarType(), VTK_FLOAT);
+  EXPECT_STREQ(cloud->GetPointData()->GetScalars()->GetName(), "density");
+  int dimensions[3];
+  cloud->GetDimensions(dimensions);
+  EXPECT_EQ(std::vector<int>(dimensions, dimensions + 3), (std::vector<int>{ 50, 50, 30 }));
+  EXPECT_DOUBLE_EQ(cloud->GetSpacing()[0], 40.0);
+  EXPECT_DOUBLE_EQ(cloud->GetOrigin()[0], -980.0);
+  EXPECT_NEAR(cloud->GetOrigin()[2], 20.0, 1e-9);
+  double range[2];
+  cloud->GetScalarRange(range);
+  EXPECT_EQ(range[0], 0.0);
+  EXPECT_EQ(range[1], 1.0);
+}
+
+TEST(CloudSource, PiecesEqualTheWhole)
+{
+  vtkNew<vtkBrumeCloudSource> whole;
+  vtkNew<vtkBrumeCloudSource> parts;
+  whole->SetSize(40);
+  parts->SetSize(40);
+  expect_pieces_equal_the_whole(whole, parts);
+}
+
+TEST(CloudSource, CanBeAborted)
+{
+  vtkNew<vtkBrumeCloudSource> source;
+  source->SetSize(64);
+  expect_abort_and_recovery(source);
+}
+
+TEST(CloudSource, EverySettingMakesAnotherCloud)
+{
+  const auto total = [](void (*change)(vtkBrumeCloudSource*))
+  {
+    vtkNew<vtkBrumeCloudSource> source;
+    source->SetSize(40);
+    change(source);
+    source->Update();
+    vtkDataArray* density = source->GetOutput()->GetPointData()->GetScalars();
+    double sum = 0.0;
+    for (vtkIdType n = 0; n < density->GetNumberOfTuples(); ++n)
+    {
+      sum += density->GetTuple1(n);
+    }
+    return sum;
+  };
+  const double usual = total([](vtkBrumeCloudSource*) {});
+  EXPECT_EQ(usual, total([](vtkBrumeCloudSource* s) { s->SetSeed(1); }));
+  EXPECT_NE(usual, total([](vtkBrumeCloudSource* s) { s->SetSeed(2); }));
+  EXPECT_NE(usual, total([](vtkBrumeCloudSource* s) { s->SetTime(50.0); }));
+  EXPECT_NE(usual, total([](vtkBrumeCloudSource* s) { s->SetWidth(3000.0); }));
+  EXPECT_NE(usual, total([](vtkBrumeCloudSource* s) { s->SetDetailSize(300.0); }));
+  EXPECT_NE(usual, total([](vtkBrumeCloudSource* s) { s->SetOctaves(2); }));
+  EXPECT_LT(usual, total([](vtkBrumeCloudSource* s) { s->SetOffset(0.4); }));
+  EXPECT_LT(usual, total([](vtkBrumeCloudSource* s) { s->SetCrispness(8.0); }));
+  EXPECT_NE(usual, total([](vtkBrumeCloudSource* s) { s->SetWarpAmplitude(0.0); }));
+  EXPECT_NE(usual, total([](vtkBrumeCloudSource* s) { s->SetWarpSize(100.0); }));
+  EXPECT_NE(total([](vtkBrumeCloudSource* s) { s->SetTime(50.0); }),
+    total(
+      [](vtkBrumeCloudSource* s)
+      {
+        s->SetTime(50.0);
+        s->SetWind(0.0, 5.0, 0.0);
+      }));
+}
+
+TEST(CloudSource, ASettingThatIsNoNumberIsAnError)
+{
+  vtkNew<vtkBrumeCloudSource> source;
+  vtkNew<vtkCallbackCommand> counter;
+  int errors = 0;
+  counter->SetCallback(count_progress);
+  counter->SetClientData(&errors);
+  source->AddObserver(vtkCommand::ErrorEvent, counter);
+  source->SetSize(26);
+  source->SetWind(std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0);
+  source->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, counter);
+  source->Update();
+  EXPECT_GT(errors, 0);
+  EXPECT_EQ(source->GetOutput()->GetNumberOfPoints(), 0);
+}
