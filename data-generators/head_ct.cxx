@@ -51,7 +51,7 @@ float HeadCT::value(const glm::dvec3& place, double) const
 bool sample_head_ct(const HeadCT& head,
   double noise,
   std::uint32_t noise_seed,
-  const Grid& grid,
+  const Lattice& grid,
   const Extent& extent,
   std::int16_t* values,
   const Progress& progress)

@@ -69,7 +69,7 @@ constexpr double head_marker[3] = { -75.0, 22.0, 24.0 };
 bool sample_head_ct(const HeadCT& head,
   double noise,
   std::uint32_t noise_seed,
-  const Grid& grid,
+  const Lattice& grid,
   const Extent& extent,
   std::int16_t* values,
   const Progress& progress = {});

@@ -10,12 +10,12 @@
 namespace brume
 {
 
-Extent whole_extent(const Grid& grid)
+Extent whole_extent(const Lattice& grid)
 {
   return { glm::ivec3(0), grid.dimensions - 1 };
 }
 
-Grid grid_over(const Box& box, int size)
+Lattice grid_over(const Box& box, int size)
 {
   const glm::dvec3 side = box.upper - box.lower;
   if (size < 2)
@@ -27,7 +27,7 @@ Grid grid_over(const Box& box, int size)
   {
     throw std::invalid_argument("a grid needs a box with a volume");
   }
-  Grid grid;
+  Lattice grid;
   const double step = std::max({ side.x, side.y, side.z }) / size;
   grid.spacing = glm::dvec3(step);
   for (int a = 0; a < 3; ++a)
@@ -75,7 +75,7 @@ bool for_each_row(const Extent& extent,
 
 bool sample(const Field& field,
   double time,
-  const Grid& grid,
+  const Lattice& grid,
   const Extent& extent,
   float* values,
   const Progress& progress)

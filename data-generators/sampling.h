@@ -12,7 +12,7 @@ namespace brume
 {
 
 /// A dense grid of voxel centres: voxel (i, j, k) stands at origin + (i, j, k) * spacing.
-struct Grid
+struct Lattice
 {
   glm::ivec3 dimensions{ 0 }; ///< voxels along each axis
   glm::dvec3 origin{ 0.0 };   ///< centre of voxel (0, 0, 0), world units
@@ -38,13 +38,13 @@ struct Extent
 };
 
 /// All voxels of a grid.
-Extent whole_extent(const Grid& grid);
+Extent whole_extent(const Lattice& grid);
 
 /// The grid of cubic voxels that fill a box, `size` of them along its longest side (at least 2) and
 /// as many along the others as fit, rounded to the nearest, at least 2. The grid has the box's
 /// centre; each voxel's centre stands half a voxel or more within the longest side's ends.
 /// Throws std::invalid_argument for a size below 2 or a box without a volume.
-Grid grid_over(const Box& box, int size);
+Lattice grid_over(const Box& box, int size);
 
 /// Called now and then, from the thread that asked for the work, with the fraction done in (0, 1].
 /// To return false is to ask for the work to stop.
@@ -56,7 +56,7 @@ using Progress = std::function<bool(double)>;
 /// stop; the values are then partly written.
 bool sample(const Field& field,
   double time,
-  const Grid& grid,
+  const Lattice& grid,
   const Extent& extent,
   float* values,
   const Progress& progress = {});

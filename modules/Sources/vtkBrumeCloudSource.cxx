@@ -69,7 +69,7 @@ int vtkBrumeCloudSource::RequestData(vtkInformation*,
   try
   {
     const brume::Cumulus& cloud = this->GetCloud();
-    const brume::Grid grid = brume::grid_over(cloud.bounds(), this->Size);
+    const brume::Lattice grid = brume::grid_over(cloud.bounds(), this->Size);
     this->AllocateOutputData(image, info);
     image->GetPointData()->GetScalars()->SetName("density");
     const brume::Extent block = brume::extent_of(image->GetExtent());

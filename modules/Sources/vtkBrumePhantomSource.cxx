@@ -41,7 +41,7 @@ int vtkBrumePhantomSource::RequestData(vtkInformation*,
   const int* extent = info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT());
   try
   {
-    const brume::Grid grid = brume::grid_over(brume::head_ct_bounds(), this->Size);
+    const brume::Lattice grid = brume::grid_over(brume::head_ct_bounds(), this->Size);
     const auto seed = static_cast<std::uint32_t>(this->Seed);
     if (!this->Head || this->HeadTime != this->GetMTime())
     {

@@ -1,4 +1,4 @@
-// What the sources of this module share: how a brume::Grid is told to VTK. Not installed.
+// What the sources of this module share: how a brume::Lattice is told to VTK. Not installed.
 #ifndef vtkBrumeSourceTools_h
 #define vtkBrumeSourceTools_h
 
@@ -13,7 +13,7 @@ namespace brume
 {
 
 /// Tells the pipeline the whole extent, origin, spacing and type of a grid's one scalar.
-inline void describe_grid(const Grid& grid, int scalar_type, vtkInformation* info)
+inline void describe_grid(const Lattice& grid, int scalar_type, vtkInformation* info)
 {
   const int extent[6] = {
     0, grid.dimensions.x - 1, 0, grid.dimensions.y - 1, 0, grid.dimensions.z - 1

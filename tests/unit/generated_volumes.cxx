@@ -37,7 +37,7 @@ std::uint64_t fingerprint(const std::vector<T>& values)
 
 std::vector<float> sampled(const brume::Field& field, int size, double time = 0.0)
 {
-  const brume::Grid grid = brume::grid_over(field.bounds(), size);
+  const brume::Lattice grid = brume::grid_over(field.bounds(), size);
   std::vector<float> values(brume::whole_extent(grid).voxels());
   EXPECT_TRUE(brume::sample(field, time, grid, brume::whole_extent(grid), values.data()));
   return values;
@@ -46,7 +46,7 @@ std::vector<float> sampled(const brume::Field& field, int size, double time = 0.
 std::vector<std::int16_t> scanned(int size, double noise)
 {
   const brume::HeadCT head;
-  const brume::Grid grid = brume::grid_over(head.bounds(), size);
+  const brume::Lattice grid = brume::grid_over(head.bounds(), size);
   std::vector<std::int16_t> values(brume::whole_extent(grid).voxels());
   brume::sample_head_ct(head, noise, 1, grid, brume::whole_extent(grid), values.data());
   return values;
@@ -181,7 +181,7 @@ TEST(HeadCT, FacesForwardAndStandsUpright)
 
 TEST(HeadCT, NoiseHasItsDeviationAndNoBias)
 {
-  const brume::Grid grid = brume::grid_over(head().bounds(), 256);
+  const brume::Lattice grid = brume::grid_over(head().bounds(), 256);
   const brume::Extent air{ { 0, 0, 200 }, { 25, 25, 255 } }; // a corner outside the head
   std::vector<std::int16_t> values(air.voxels());
   brume::sample_head_ct(head(), 5.0, 3, grid, air, values.data());
@@ -242,7 +242,7 @@ TEST(Cumulus, NeverTouchesItsBox)
       brume::CumulusOptions options;
       options.warp_amplitude = 1e6;
       const brume::Cumulus cloud(options);
-      const brume::Grid grid = brume::grid_over(cloud.bounds(), size);
+      const brume::Lattice grid = brume::grid_over(cloud.bounds(), size);
       const std::vector<float> density = sampled(cloud, size, time);
       std::size_t n = 0;
       for (int k = 0; k < grid.dimensions.z; ++k)
@@ -308,7 +308,7 @@ TEST(Cumulus, RefusesOptionsThatMakeNoCloud)
 
 TEST(Sampling, GridsFillTheirBoxAndShareItsCentre)
 {
-  const brume::Grid grid = brume::grid_over({ { -96, -120, -128 }, { 96, 120, 128 } }, 256);
+  const brume::Lattice grid = brume::grid_over({ { -96, -120, -128 }, { 96, 120, 128 } }, 256);
   EXPECT_EQ(grid.dimensions, glm::ivec3(192, 240, 256));
   EXPECT_EQ(grid.spacing, dvec3(1.0));
   EXPECT_EQ(grid.origin, dvec3(-95.5, -119.5, -127.5));
@@ -330,7 +330,7 @@ TEST(Sampling, DoesNotDependOnTheThreads)
 TEST(Sampling, ReportsProgressAndStops)
 {
   const brume::Cumulus cloud;
-  const brume::Grid grid = brume::grid_over(cloud.bounds(), 64);
+  const brume::Lattice grid = brume::grid_over(cloud.bounds(), 64);
   std::vector<float> values(brume::whole_extent(grid).voxels());
   std::vector<double> reports;
   EXPECT_TRUE(brume::sample(cloud,
