@@ -12,7 +12,8 @@ find_package(VTK 9.1 REQUIRED COMPONENTS
   RenderingCore RenderingVolume RenderingOpenGL2 RenderingVolumeOpenGL2 RenderingFreeType
   InteractionStyle FiltersSources)
 
-find_package(OpenImageIO 2.4 REQUIRED)
+# QUIET: Imath's Debian package names a Python library that it does not bring, and says so at length.
+find_package(OpenImageIO 2.4 REQUIRED QUIET)
 # Debian's OpenImageIO target names an include folder of OpenCV that its package does not bring.
 get_target_property(_oiio_includes OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
 list(FILTER _oiio_includes EXCLUDE REGEX "opencv")
