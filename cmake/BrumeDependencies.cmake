@@ -13,7 +13,8 @@ find_package(VTK 9.1 REQUIRED COMPONENTS
   RenderingCore RenderingVolume RenderingOpenGL2 RenderingVolumeOpenGL2 RenderingFreeType
   InteractionStyle FiltersSources)
 
-find_package(OpenImageIO 2.4 REQUIRED)
+# QUIET: Imath's Debian package names a Python library that it does not bring, and says so at length.
+find_package(OpenImageIO 2.4 REQUIRED QUIET)
 # Debian's OpenImageIO target names an include folder of OpenCV that its package does not bring.
 get_target_property(_oiio_includes OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
 list(FILTER _oiio_includes EXCLUDE REGEX "opencv")
@@ -22,3 +23,4 @@ set_target_properties(OpenImageIO::OpenImageIO PROPERTIES
 
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
+find_package(X11 REQUIRED) # the program asks whether a display can be opened

@@ -1,0 +1,29 @@
+# How the program answers a call, whatever the subcommand.
+# shellcheck shell=bash
+
+case_ "no subcommand is a bad call"
+run
+expect_failure 2
+expect_error 'brume --help'
+expect_no_files
+
+case_ "an unknown subcommand is a bad call"
+run nonsense
+expect_failure 2
+expect_no_files
+
+case_ "an unknown option is a bad call"
+run --nonsense
+expect_failure 2
+expect_no_files
+
+case_ "--help is an answer, not an error"
+run --help
+expect_success
+expect_output '^Usage: brume'
+expect_output '[-][-]version'
+
+case_ "--version"
+run --version
+expect_success
+expect_output '^brume [0-9]+\.[0-9]+\.[0-9]+$'
