@@ -41,8 +41,10 @@ public:
   ExitStatus Status;
 };
 
-// Each subcommand (add_NAME, declared below) declares its options on the program and the callback that runs it; one file each.
+// Each subcommand declares its options on the program and the callback that runs it; one file each.
 // A callback returns when it is done and throws Failure when it cannot do its work.
+void add_compare(CLI::App& program);
 void add_info(CLI::App& program);
+void add_render(CLI::App& program);
 
 }

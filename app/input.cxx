@@ -28,7 +28,10 @@ Input make_sample(const std::string& name, const Progress& progress)
   {
     if (name == sample.name)
     {
-      return sample.make(progress);
+      Input input = sample.make(progress);
+      input.name = "sample:" + name;
+      input.format = "sample";
+      return input;
     }
     known += (known.empty() ? "" : ", ") + std::string(sample.name);
   }

@@ -17,7 +17,9 @@ int main(int argc, char** argv)
   program.set_version_flag("--version", "brume " BRUME_VERSION);
   program.require_subcommand(1);
   program.get_formatter()->column_width(38);
+  add_compare(program);
   add_info(program);
+  add_render(program);
 
   try
   {

@@ -1,0 +1,23 @@
+// Ctrl-C while something long is under way.
+#pragma once
+
+namespace brume::app
+{
+
+/// While one of these lives, the first SIGINT or SIGTERM only takes note, so that the work can stop
+/// in order and leave nothing half-done behind; a second one ends the program at once.
+class InterruptionWatch
+{
+public:
+  InterruptionWatch();
+  ~InterruptionWatch();
+  InterruptionWatch(const InterruptionWatch&) = delete;
+  InterruptionWatch& operator=(const InterruptionWatch&) = delete;
+
+  /// Whether the user asked to stop.
+  static bool requested();
+  /// Throws Failure when the user asked to stop. `place` is what was being worked on.
+  static void check(const char* place);
+};
+
+}

@@ -1,0 +1,35 @@
+// The mappers that the program can draw with.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace brume::app
+{
+
+enum class MapperKind
+{
+  RayMarch,   ///< vtkBrumeRayMarchMapper
+  FixedPoint, ///< vtkFixedPointVolumeRayCastMapper, VTK's own on the CPU
+  Gpu,        ///< vtkOpenGLGPUVolumeRayCastMapper, VTK's own on the GPU
+};
+
+struct MapperName
+{
+  MapperKind kind;
+  const char* name;       ///< on the command line and in file names
+  const char* title;      ///< for people
+  const char* class_name; ///< VTK's or Brume's
+};
+
+/// All of them, in the order in which they are shown.
+const std::vector<MapperName>& mapper_names();
+
+/// The mapper of that name. Throws Failure (BadCall), listing the names, when there is none;
+/// `option` is where the name was given.
+const MapperName& find_mapper(const std::string& name, const std::string& option);
+
+/// The names, separated by commas.
+std::string list_mapper_names();
+
+}

@@ -1,0 +1,202 @@
+// brume render: one picture of one volume.
+#include "command.h"
+#include "interruption.h"
+#include "mapper_names.h"
+#include "private_display.h"
+#include "progress.h"
+#include "scene_options.h"
+#include "stock_renderer.h"
+#include "volume_scene.h"
+
+#include "atomic_file.h"
+#include "film_io.h"
+#include "Transport/film.h"
+
+#include "vtkBrumeRayMarchMapper.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCamera.h"
+#include "vtkCommand.h"
+#include "vtkImageData.h"
+#include "vtkLightCollection.h"
+#include "vtkNew.h"
+#include "vtkVolume.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <iostream>
+#include <memory>
+
+namespace brume::app
+{
+
+namespace
+{
+
+struct Options
+{
+  SceneOptions scene;
+  std::string output;
+  std::string mapper = "raymarch";
+  std::string stats;
+};
+
+struct Drawn
+{
+  Film film;
+  std::string statistics; ///< JSON
+};
+
+Drawn draw_ray_march(const VolumeScene& scene)
+{
+  vtkNew<vtkBrumeRayMarchMapper> mapper;
+  mapper->SetInputData(scene.input.image);
+  mapper->SetTolerance(scene.options.tolerance);
+  mapper->SetNumberOfThreads(scene.options.threads);
+  if (scene.options.sample_distance)
+  {
+    mapper->AutoAdjustSampleDistancesOff();
+    mapper->SetSampleDistance(*scene.options.sample_distance);
+  }
+  scene.volume->SetMapper(mapper);
+  vtkBrumeVolumeMapper::ResetClippingRange(scene.volume, scene.camera);
+
+  struct Watch
+  {
+    ProgressBar bar;
+    std::string error;
+  } watch{ ProgressBar("rendering", !scene.options.quiet), {} };
+  vtkNew<vtkCallbackCommand> observer;
+  observer->SetClientData(&watch);
+  observer->SetCallback(
+    [](vtkObject* caller, unsigned long event, void* data, void* text)
+    {
+      auto& w = *static_cast<Watch*>(data);
+      auto* algorithm = static_cast<vtkAlgorithm*>(caller);
+      if (event == vtkCommand::ErrorEvent)
+      {
+        w.error = static_cast<const char*>(text);
+        return;
+      }
+      w.bar.update(algorithm->GetProgress());
+      if (InterruptionWatch::requested())
+      {
+        algorithm->AbortExecuteOn();
+      }
+    });
+  mapper->AddObserver(vtkCommand::ProgressEvent, observer);
+  mapper->AddObserver(vtkCommand::ErrorEvent, observer);
+  Drawn drawn;
+  drawn.film = Film(scene.width(), scene.height());
+  const bool completed =
+    mapper->RenderFilm(scene.volume, scene.camera, scene.lights, drawn.film);
+  watch.bar.clear();
+  InterruptionWatch::check(scene.options.input.c_str());
+  if (!completed)
+  {
+    throw Failure(scene.options.input, "it cannot be drawn", watch.error);
+  }
+  drawn.statistics = mapper->GetStatistics();
+  return drawn;
+}
+
+Drawn draw_stock(const VolumeScene& scene, const MapperName& mapper)
+{
+  const PrivateDisplay display;
+  if (!display.available())
+  {
+    throw Failure("--mapper " + std::string(mapper.name), display.reason(),
+      "or take --mapper raymarch, which needs no display");
+  }
+  // What VTK's own mappers take by default when nobody tells them: half a voxel here, as compare.
+  const double step = scene.options.sample_distance.value_or(0.5 * scene.voxel_edge);
+  vtkBrumeVolumeMapper::ResetClippingRange(scene.volume, scene.camera);
+  StockRenderer renderer(scene, mapper.kind, step);
+  Drawn drawn;
+  nlohmann::json statistics;
+  statistics["mapper"] = mapper.name;
+  statistics["seconds"] = renderer.render();
+  statistics["step"] = step;
+  statistics["step_chosen_by"] = scene.options.sample_distance ? "caller" : "half a voxel";
+  statistics["device"] = renderer.device();
+  statistics["radiometric"] = false;
+  drawn.statistics = statistics.dump(2);
+  drawn.film = renderer.film();
+  return drawn;
+}
+
+void run(const Options& options)
+{
+  check_picture_path(options.output);
+  const MapperName& mapper = find_mapper(options.mapper, "--mapper");
+  const InterruptionWatch watch;
+  const VolumeScene scene = make_volume_scene(options.scene);
+  const Drawn drawn =
+    mapper.kind == MapperKind::RayMarch ? draw_ray_march(scene) : draw_stock(scene, mapper);
+  InterruptionWatch::check(options.scene.input.c_str());
+
+  const nlohmann::json statistics = nlohmann::json::parse(drawn.statistics);
+  if (options.output.size() > 4 &&
+    CLI::detail::to_lower(options.output.substr(options.output.size() - 4)) == ".exr")
+  {
+    write_exr(drawn.film, options.output,
+      { { "brume:input", options.scene.input }, { "brume:mapper", options.mapper },
+        { "brume:preset", options.scene.preset } });
+  }
+  else
+  {
+    write_png(drawn.film, scene.options.background.data(), options.output);
+  }
+  if (!options.stats.empty())
+  {
+    write_atomically(options.stats, statistics.dump(2) + "\n");
+  }
+  if (!options.scene.quiet)
+  {
+    const std::size_t voxels = statistics.value("non_finite_voxels", std::size_t{ 0 });
+    if (voxels > 0)
+    {
+      std::cerr << "brume: " << options.scene.input << ": " << voxels
+                << " voxels are not finite and are drawn as empty\n";
+    }
+    if (!statistics.value("tolerance_met", true))
+    {
+      std::cerr << "brume: " << options.scene.input << ": the estimated error, "
+                << statistics["estimated_error"].get<double>()
+                << " of white, is over the tolerance: give a smaller --sample-distance, or a larger "
+                   "--tolerance\n";
+    }
+  }
+  if (options.scene.verbose)
+  {
+    std::cerr << statistics.dump(2) << '\n';
+  }
+}
+
+}
+
+void add_render(CLI::App& program)
+{
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand(
+    "render", "Draw one picture of a volume; needs no window and no display");
+  add_scene_options(*command, options->scene, "preset");
+  command
+    ->add_option("--output,-o", options->output,
+      "The picture: .png as a screen shows it, or .exr with linear radiance, transmittance and "
+      "depth")
+    ->required()
+    ->type_name("FILE");
+  command
+    ->add_option("--mapper", options->mapper,
+      "What draws it: " + list_mapper_names() + " [raymarch]")
+    ->type_name("M");
+  command->add_option("--stats", options->stats, "Write what it took, as JSON, to FILE")
+    ->type_name("FILE");
+  command->get_option("--sample-distance")
+    ->description("Fixed distance between samples, in world units [chosen by the tolerance]");
+  command->callback([options] { run(*options); });
+}
+
+}

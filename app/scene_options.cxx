@@ -1,0 +1,157 @@
+#include "scene_options.h"
+
+#include "presets.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+
+namespace brume::app
+{
+
+namespace
+{
+
+/// A check that CLI11 runs on each number of an option, with its own words.
+CLI::Validator number(const std::string& what, bool (*good)(double))
+{
+  return CLI::Validator(
+    [what, good](std::string& text) -> std::string
+    {
+      char* end = nullptr;
+      const double value = std::strtod(text.c_str(), &end);
+      if (end == text.c_str() || *end != '\0' || !std::isfinite(value) || !good(value))
+      {
+        return "'" + text + "' is not " + what;
+      }
+      return {};
+    },
+    "");
+}
+
+const CLI::Validator& any()
+{
+  static const CLI::Validator check = number("a number", [](double) { return true; });
+  return check;
+}
+
+const CLI::Validator& positive()
+{
+  static const CLI::Validator check =
+    number("a number greater than 0", [](double v) { return v > 0.0; });
+  return check;
+}
+
+std::string preset_names()
+{
+  std::string names;
+  for (const Preset& preset : presets())
+  {
+    names += (names.empty() ? "" : ", ") + preset.name;
+  }
+  return names;
+}
+
+}
+
+void add_scene_options(CLI::App& command, SceneOptions& o, const std::string& shade)
+{
+  o.shade = shade;
+  command.add_option("INPUT", o.input, "A file, or sample:NAME")->required();
+
+  const char* camera = "Camera";
+  const char* look = "Look";
+  const char* cost = "Accuracy and cost";
+  command.add_option("--resolution", o.resolution, "Size of the picture in pixels [512,512]")
+    ->delimiter(',')
+    ->type_name("W,H")
+    ->check(number("a whole number of pixels from 1 to 16384",
+      [](double v) { return v >= 1 && v <= 16384 && v == std::floor(v); }))
+    ->group(camera);
+  command
+    .add_option("--camera-position", o.camera_position,
+      "Where the eye is, in world units [so that the whole volume is seen]")
+    ->delimiter(',')
+    ->type_name("X,Y,Z")
+    ->check(any())
+    ->group(camera);
+  command
+    .add_option("--camera-focal-point", o.camera_focal_point,
+      "What it looks at, in world units [the volume's centre]")
+    ->delimiter(',')
+    ->type_name("X,Y,Z")
+    ->check(any())
+    ->group(camera);
+  command
+    .add_option("--camera-view-up", o.camera_view_up, "Which way is up in the picture [0,0,1]")
+    ->delimiter(',')
+    ->type_name("X,Y,Z")
+    ->check(any())
+    ->group(camera);
+  command
+    .add_option("--camera-view-angle", o.camera_view_angle,
+      "Angle between the picture's lower and upper edge, in degrees [30]")
+    ->type_name("DEG")
+    ->check(number("an angle between 0 and 180 degrees",
+      [](double v) { return v > 0.0 && v < 180.0; }))
+    ->group(camera);
+  command
+    .add_option("--camera-parallel-scale", o.camera_parallel_scale,
+      "Parallel projection: half the height that is seen, in world units [perspective]")
+    ->type_name("S")
+    ->check(positive())
+    ->group(camera);
+
+  command.add_option("--background", o.background, "Colour behind the volume, linear [0,0,0]")
+    ->delimiter(',')
+    ->type_name("R,G,B")
+    ->check(number("a number of 0 or more", [](double v) { return v >= 0.0; }))
+    ->group(look);
+  command
+    .add_option("--preset", o.preset,
+      "Transfer functions: " + preset_names() + " [picked from the data]")
+    ->type_name("NAME")
+    ->group(look);
+  command
+    .add_option("--opacity-unit-distance", o.opacity_unit_distance,
+      "Length that the preset's opacities speak of, in world units [the preset's]")
+    ->type_name("D")
+    ->check(positive())
+    ->group(look);
+  command
+    .add_option("--shade", o.shade,
+      "Light the volume like a surface by its gradient: on, off, or preset, as the preset has it [" +
+        shade + "]")
+    ->type_name("WHEN")
+    ->check(CLI::IsMember({ "on", "off", "preset" }))
+    ->group(look);
+  command
+    .add_option("--interpolation", o.interpolation, "Between voxels: linear or nearest [linear]")
+    ->type_name("HOW")
+    ->check(CLI::IsMember({ "linear", "nearest" }))
+    ->group(look);
+
+  command
+    .add_option("--sample-distance", o.sample_distance,
+      "Fixed distance between samples, in world units")
+    ->type_name("D")
+    ->check(positive())
+    ->group(cost);
+  command
+    .add_option("--tolerance", o.tolerance,
+      "Largest error of a pixel that is accepted for speed, as a fraction of white [0.004]")
+    ->type_name("T")
+    ->check(number("a number from 0 to 1", [](double v) { return v >= 0.0 && v <= 1.0; }))
+    ->group(cost);
+  command.add_option("--threads", o.threads, "Threads that render [as many as processors]")
+    ->type_name("N")
+    ->check(number("a whole number from 1 to 1024",
+      [](double v) { return v >= 1 && v <= 1024 && v == std::floor(v); }))
+    ->group(cost);
+
+  command.add_flag("--quiet", o.quiet, "No progress bar and no remarks");
+  command.add_flag("--verbose", o.verbose, "Say more of what is done, and why")
+    ->excludes("--quiet");
+}
+
+}

@@ -1,0 +1,43 @@
+// The scene options, which are the same for every subcommand that draws.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI
+{
+class App;
+}
+
+namespace brume::app
+{
+
+/// What the user says about the scene. Empty optionals are settled from the volume (volume_scene.h).
+struct SceneOptions
+{
+  std::string input;
+  std::array<int, 2> resolution{ 512, 512 }; ///< pixels
+  std::optional<std::array<double, 3>> camera_position;    ///< world units
+  std::optional<std::array<double, 3>> camera_focal_point; ///< world units
+  std::optional<std::array<double, 3>> camera_view_up;
+  double camera_view_angle = 30.0;             ///< degrees
+  std::optional<double> camera_parallel_scale; ///< world units; parallel projection when given
+  std::array<double, 3> background{ 0.0, 0.0, 0.0 }; ///< linear RGB
+  std::string preset;                          ///< empty: picked from the data
+  std::optional<double> opacity_unit_distance; ///< world units
+  std::optional<double> sample_distance;       ///< world units
+  std::string interpolation = "linear";
+  std::string shade = "preset"; ///< on, off, or preset: as the preset has it
+  double tolerance = 0.004;
+  int threads = 0;
+  bool quiet = false;
+  bool verbose = false;
+};
+
+/// Declares INPUT and the scene options on a subcommand; they are read into `options`, which must
+/// outlive the parse. `shade` is the subcommand's default for --shade.
+void add_scene_options(CLI::App& command, SceneOptions& options, const std::string& shade);
+
+}

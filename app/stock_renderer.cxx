@@ -1,0 +1,259 @@
+#include "stock_renderer.h"
+
+#include "command.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCamera.h"
+#include "vtkFixedPointRayCastImage.h"
+#include "vtkFixedPointVolumeRayCastMapper.h"
+#include "vtkImageData.h"
+#include "vtkLightCollection.h"
+#include "vtkMatrix3x3.h"
+#include "vtkMatrix4x4.h"
+#include "vtkNew.h"
+#include "vtkOpenGLGPUVolumeRayCastMapper.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderer.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkVolume.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace brume::app
+{
+
+struct StockRenderer::Internals
+{
+  using Clock = std::chrono::steady_clock;
+
+  const VolumeScene* Scene = nullptr;
+  MapperKind Kind = MapperKind::FixedPoint;
+  vtkNew<vtkImageData> Image;
+  vtkNew<vtkVolume> Volume;
+  vtkNew<vtkRenderer> Renderer;
+  vtkNew<vtkRenderWindow> Window;
+  vtkSmartPointer<vtkFixedPointVolumeRayCastMapper> FixedPoint;
+  vtkSmartPointer<vtkOpenGLGPUVolumeRayCastMapper> Gpu;
+  Clock::time_point Start;
+  double Seconds = 0.0;
+  std::string Error;
+
+  /// The stock mappers do not all know an image's direction, so it goes into the prop's matrix.
+  void place_volume()
+  {
+    vtkImageData* image = this->Scene->input.image;
+    this->Image->ShallowCopy(image);
+    const double* origin = image->GetOrigin();
+    this->Image->SetOrigin(0.0, 0.0, 0.0);
+    vtkNew<vtkMatrix3x3> identity;
+    this->Image->SetDirectionMatrix(identity);
+    vtkNew<vtkMatrix4x4> matrix;
+    for (int row = 0; row < 3; ++row)
+    {
+      for (int column = 0; column < 3; ++column)
+      {
+        matrix->SetElement(row, column, image->GetDirectionMatrix()->GetElement(row, column));
+      }
+      matrix->SetElement(row, 3, origin[row]);
+    }
+    this->Volume->SetUserMatrix(matrix);
+    this->Volume->SetProperty(this->Scene->volume->GetProperty());
+  }
+
+  void observe(vtkObject* object)
+  {
+    vtkNew<vtkCallbackCommand> observer;
+    observer->SetClientData(this);
+    observer->SetCallback(
+      [](vtkObject*, unsigned long event, void* data, void* text)
+      {
+        auto* self = static_cast<Internals*>(data);
+        if (event == vtkCommand::VolumeMapperRenderStartEvent)
+        {
+          self->Start = Clock::now();
+        }
+        else if (event == vtkCommand::VolumeMapperRenderEndEvent)
+        {
+          self->Seconds = std::chrono::duration<double>(Clock::now() - self->Start).count();
+        }
+        else if (self->Error.empty())
+        {
+          self->Error = text ? static_cast<const char*>(text) : "unknown error";
+          std::replace(self->Error.begin(), self->Error.end(), '\n', ' ');
+        }
+      });
+    object->AddObserver(vtkCommand::ErrorEvent, observer);
+    object->AddObserver(vtkCommand::VolumeMapperRenderStartEvent, observer);
+    object->AddObserver(vtkCommand::VolumeMapperRenderEndEvent, observer);
+  }
+};
+
+StockRenderer::StockRenderer(const VolumeScene& scene, MapperKind kind, double step)
+  : Internal(std::make_unique<Internals>())
+{
+  Internals& in = *this->Internal;
+  in.Scene = &scene;
+  in.Kind = kind;
+  in.place_volume();
+  if (kind == MapperKind::FixedPoint)
+  {
+    in.FixedPoint = vtkSmartPointer<vtkFixedPointVolumeRayCastMapper>::New();
+    in.FixedPoint->SetInputData(in.Image);
+    in.FixedPoint->AutoAdjustSampleDistancesOff();
+    in.FixedPoint->SetSampleDistance(static_cast<float>(step));
+    in.FixedPoint->SetInteractiveSampleDistance(static_cast<float>(step));
+    in.FixedPoint->SetImageSampleDistance(1.0f);
+    in.FixedPoint->IntermixIntersectingGeometryOff();
+    if (scene.options.threads > 0)
+    {
+      in.FixedPoint->SetNumberOfThreads(scene.options.threads);
+    }
+    in.Volume->SetMapper(in.FixedPoint);
+    in.observe(in.FixedPoint);
+  }
+  else
+  {
+    in.Gpu = vtkSmartPointer<vtkOpenGLGPUVolumeRayCastMapper>::New();
+    in.Gpu->SetInputData(in.Image);
+    in.Gpu->AutoAdjustSampleDistancesOff();
+    in.Gpu->SetSampleDistance(static_cast<float>(step));
+    in.Gpu->SetImageSampleDistance(1.0f);
+    in.Gpu->UseJitteringOff();
+    in.Volume->SetMapper(in.Gpu);
+    in.observe(in.Gpu);
+  }
+  in.observe(in.Window);
+  in.Window->SetOffScreenRendering(1);
+  in.Window->SetMultiSamples(0);
+  in.Window->SetAlphaBitPlanes(1);
+  in.Window->SetSize(scene.width(), scene.height());
+  in.Window->AddRenderer(in.Renderer);
+  double background[3];
+  std::copy(scene.options.background.begin(), scene.options.background.end(), background);
+  in.Renderer->SetBackground(background);
+  in.Renderer->SetActiveCamera(scene.camera);
+  in.Renderer->AutomaticLightCreationOff();
+  in.Renderer->SetLightCollection(scene.lights);
+  in.Renderer->AddVolume(in.Volume);
+}
+
+StockRenderer::~StockRenderer() = default;
+
+double StockRenderer::render()
+{
+  Internals& in = *this->Internal;
+  const auto start = Internals::Clock::now();
+  in.Window->Render();
+  if (in.Kind == MapperKind::Gpu)
+  {
+    in.Window->WaitForCompletion();
+    in.Seconds = std::chrono::duration<double>(Internals::Clock::now() - start).count();
+  }
+  if (!in.Error.empty())
+  {
+    throw Failure(in.Kind == MapperKind::Gpu ? "vtk-gpu" : "vtk-fixed-point", in.Error,
+      "leave this mapper out with --mappers");
+  }
+  return in.Seconds;
+}
+
+Picture StockRenderer::frame()
+{
+  Internals& in = *this->Internal;
+  Picture picture;
+  picture.width = in.Scene->width();
+  picture.height = in.Scene->height();
+  vtkNew<vtkUnsignedCharArray> bytes;
+  in.Window->GetPixelData(0, 0, picture.width - 1, picture.height - 1, 0, bytes);
+  for (vtkIdType i = 0; i < bytes->GetNumberOfValues(); ++i)
+  {
+    picture.rgb.push_back(bytes->GetValue(i) / 255.0f);
+  }
+  return picture;
+}
+
+Picture StockRenderer::picture()
+{
+  Internals& in = *this->Internal;
+  if (in.Kind == MapperKind::Gpu)
+  {
+    return this->frame();
+  }
+  return { in.Scene->width(), in.Scene->height(),
+    over_background(this->film(), in.Scene->options.background.data()) };
+}
+
+Film StockRenderer::film()
+{
+  Internals& in = *this->Internal;
+  Film film(in.Scene->width(), in.Scene->height());
+  if (in.Kind == MapperKind::FixedPoint)
+  {
+    // Premultiplied colour and opacity, 15 bits each, of the part of the viewport that is in use.
+    vtkFixedPointRayCastImage* image = in.FixedPoint->GetRayCastImage();
+    int memory[2];
+    int used[2];
+    int origin[2];
+    image->GetImageMemorySize(memory);
+    image->GetImageInUseSize(used);
+    image->GetImageOrigin(origin);
+    for (int y = 0; y < used[1]; ++y)
+    {
+      for (int x = 0; x < used[0]; ++x)
+      {
+        const unsigned short* pixel =
+          image->GetImage() + 4 * (static_cast<std::size_t>(y) * memory[0] + x);
+        const int px = x + origin[0];
+        const int py = y + origin[1];
+        if (px < 0 || py < 0 || px >= film.width || py >= film.height)
+        {
+          continue;
+        }
+        const std::size_t i = static_cast<std::size_t>(py) * film.width + px;
+        for (int c = 0; c < 3; ++c)
+        {
+          film.radiance[c][i] = pixel[c] / 32767.0f;
+          film.transmittance[c][i] = 1.0f - pixel[3] / 32767.0f;
+        }
+      }
+    }
+    return film;
+  }
+  double background[3];
+  in.Renderer->GetBackground(background);
+  in.Renderer->SetBackground(0.0, 0.0, 0.0);
+  in.Renderer->SetBackgroundAlpha(0.0);
+  in.Window->Render();
+  vtkNew<vtkUnsignedCharArray> bytes;
+  in.Window->GetRGBACharPixelData(0, 0, film.width - 1, film.height - 1, 0, bytes);
+  for (std::size_t i = 0; i < film.size(); ++i)
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      film.radiance[c][i] = bytes->GetValue(static_cast<vtkIdType>(4 * i) + c) / 255.0f;
+      film.transmittance[c][i] =
+        1.0f - bytes->GetValue(static_cast<vtkIdType>(4 * i) + 3) / 255.0f;
+    }
+  }
+  in.Renderer->SetBackground(background);
+  in.Window->Render();
+  return film;
+}
+
+std::string StockRenderer::device()
+{
+  const char* text = this->Internal->Window->ReportCapabilities();
+  const std::string all = text ? text : "";
+  const std::string key = "OpenGL renderer string:";
+  const std::size_t at = all.find(key);
+  if (at == std::string::npos)
+  {
+    return {};
+  }
+  const std::size_t begin = all.find_first_not_of(' ', at + key.size());
+  return all.substr(begin, all.find('\n', begin) - begin);
+}
+
+}

@@ -1,0 +1,44 @@
+// VTK's own mappers, drawn in a window that nobody sees.
+#pragma once
+
+#include "mapper_names.h"
+#include "volume_scene.h"
+
+#include "Analysis/picture.h"
+#include "Transport/film.h"
+
+#include <memory>
+
+namespace brume::app
+{
+
+/// Draws a scene with one of VTK's stock mappers, step and all settings fixed, no jitter. Needs a
+/// display (private_display.h). The picture is read where it is most exact: from the ray-cast image
+/// of 15 bits for the CPU mapper, from the frame of 8 bits for the GPU mapper.
+class StockRenderer
+{
+public:
+  /// `step` in world units. The scene must outlive the renderer. Throws Failure when VTK reports an
+  /// error.
+  StockRenderer(const VolumeScene& scene, MapperKind kind, double step);
+  ~StockRenderer();
+
+  /// One render; returns the seconds of the volume's render alone: for the CPU mapper from its own
+  /// start and end events, for the GPU mapper the frame until the card has finished.
+  double render();
+
+  /// The last render over the scene's background.
+  Picture picture();
+  /// The last render as light: the GPU mapper's is drawn once more over black.
+  Film film();
+  /// The frame as the window shows it, 8 bits.
+  Picture frame();
+  /// Name of the OpenGL device.
+  std::string device();
+
+private:
+  struct Internals;
+  std::unique_ptr<Internals> Internal;
+};
+
+}

@@ -1,0 +1,44 @@
+// A scene ready to be drawn by any mapper: volume, property, camera, light.
+#pragma once
+
+#include "input.h"
+#include "scene_options.h"
+
+#include "vtkSmartPointer.h"
+
+#include <string>
+
+class vtkCamera;
+class vtkLightCollection;
+class vtkVolume;
+
+namespace brume::app
+{
+
+struct Preset;
+
+struct VolumeScene
+{
+  SceneOptions options;
+  Input input;
+  const Preset* preset = nullptr;
+  std::string preset_reason; ///< why this preset; empty when the user named it
+  vtkSmartPointer<vtkVolume> volume; ///< with its property, without a mapper
+  vtkSmartPointer<vtkCamera> camera; ///< clipping range fits the volume
+  vtkSmartPointer<vtkLightCollection> lights; ///< one headlight, white
+  double voxel_edge = 1.0;            ///< the smallest edge of a voxel, world units
+  double opacity_unit_distance = 1.0; ///< world units
+
+  int width() const { return this->options.resolution[0]; }
+  int height() const { return this->options.resolution[1]; }
+};
+
+/// Opens the input, with a progress bar, and settles all that the user left open:
+/// - the preset from the data (choose_preset);
+/// - the camera: the whole volume, for patients from the front, a little from their left and above,
+///   with the head up; otherwise from the front (−y), a little from the right and above, with z up.
+/// Remarks (what the reader settled, which preset and why) go to standard error unless --quiet.
+/// Throws Failure: BadCall for an unknown preset or sample, Failed for an input that cannot be read.
+VolumeScene make_volume_scene(const SceneOptions& options);
+
+}
