@@ -264,6 +264,12 @@ TEST(ChoosePreset, LooksAtTheValues)
   EXPECT_EQ("ct-bone", name(scan(400)));
   EXPECT_EQ("ct-muscle", name(scan(40)));
   EXPECT_EQ("ct-lung", name(scan(-700)));
+  const auto with_bone = [](int one_in) {
+    return cube<vtkShortArray>(20, 200, "scan",
+      [one_in](vtkIdType i) { return i % 2 ? -1000.0 : i % one_in == 0 ? 700.0 : 40.0; });
+  };
+  EXPECT_EQ("ct-bone", name(with_bone(50)));    // 4 % of what is not air
+  EXPECT_EQ("ct-muscle", name(with_bone(800))); // 0.25 %
   // No air to be seen, but the header knows.
   auto inside = cube<vtkShortArray>(20, 200, "scan", [](vtkIdType i) { return i % 2 ? -20 : 40; });
   EXPECT_EQ("grey", name(inside));
@@ -278,5 +284,7 @@ TEST(ChoosePreset, LooksAtTheValues)
   EXPECT_EQ("cloud", name(cube<vtkFloatArray>(20, 1, "Density", fraction)));
   EXPECT_EQ("cloud", name(cube<vtkFloatArray>(20, 1, "x", fraction), { "", "cloud_density" }));
   EXPECT_EQ("grey", name(cube<vtkFloatArray>(20, 1, "temperature", fraction)));
+  EXPECT_EQ("grey", name(cube<vtkFloatArray>(20, 1, "density_anomaly",
+                      [](vtkIdType i) { return (i % 200) / 199.0 - 0.5; })));
   EXPECT_EQ("mr-default", name(cube<vtkFloatArray>(20, 1, "density", fraction), { "MR", "" }));
 }
