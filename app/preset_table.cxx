@@ -30,10 +30,10 @@ const std::vector<Preset>& presets()
       "Muscle and organs in red, bone in ivory; fat and air left out." },
 
     { "ct-skin", "CT, skin", "CT", VU::Hounsfield, LU::Millimetre, 1.0,
-      { { -600, 0.55, 0.30, 0.20 }, { -200, 0.84, 0.60, 0.47 }, { 50, 0.93, 0.72, 0.59 },
+      { { -700, 0.75, 0.50, 0.38 }, { -200, 0.88, 0.64, 0.51 }, { 50, 0.93, 0.72, 0.59 },
         { 400, 0.97, 0.90, 0.80 } },
-      { { -600, 0 }, { -350, 0.10 }, { -100, 0.55 }, { 200, 0.80 } }, {},
-      { true, 0.20, 0.80, 0.15, 10 },
+      { { -700, 0 }, { -400, 0.12 }, { -100, 0.55 }, { 200, 0.80 } }, {},
+      { true, 0.30, 0.75, 0.12, 10 },
       "The body's surface: everything denser than air, in the colour of skin." },
 
     { "ct-angiography", "CT, vessels with contrast agent", "CT", VU::Hounsfield, LU::Millimetre, 1.0,
@@ -46,15 +46,15 @@ const std::vector<Preset>& presets()
     { "ct-lung", "CT, lung", "CT", VU::Hounsfield, LU::Millimetre, 1.0,
       { { -950, 0.20, 0.30, 0.55 }, { -800, 0.45, 0.60, 0.85 }, { -600, 0.90, 0.75, 0.68 },
         { -350, 0.80, 0.40, 0.35 } },
-      { { -950, 0 }, { -820, 0.03 }, { -650, 0.10 }, { -500, 0.10 }, { -350, 0.02 }, { -250, 0 } }, {},
+      { { -950, 0 }, { -820, 0.03 }, { -650, 0.10 }, { -500, 0.10 }, { -300, 0 } }, {},
       { true, 0.30, 0.70, 0.15, 10 },
       "Lung tissue and airways, translucent; the rest of the body left out." },
 
     { "mr-brain", "MR, brain", "MR", VU::RangeFraction, LU::Millimetre, 1.0,
-      { { 0.20, 0.30, 0.12, 0.10 }, { 0.45, 0.72, 0.45, 0.38 }, { 0.62, 0.90, 0.72, 0.62 },
-        { 0.85, 1.00, 0.94, 0.86 } },
-      { { 0.30, 0 }, { 0.45, 0.10 }, { 0.60, 0.45 }, { 0.85, 0.75 } }, {},
-      { true, 0.20, 0.80, 0.20, 12 },
+      { { 0.20, 0.70, 0.38, 0.34 }, { 0.45, 0.88, 0.60, 0.54 }, { 0.65, 0.96, 0.78, 0.70 },
+        { 0.85, 1.00, 0.95, 0.88 } },
+      { { 0.25, 0 }, { 0.45, 0.10 }, { 0.65, 0.40 }, { 0.90, 0.65 } }, {},
+      { true, 0.28, 0.80, 0.20, 12 },
       "Grey and white matter of a T1-weighted head." },
 
     { "mr-skin", "MR, skin", "MR", VU::RangeFraction, LU::Millimetre, 1.0,
@@ -79,7 +79,7 @@ const std::vector<Preset>& presets()
 
     { "cloud", "Cloud", "any density", VU::DensityFraction, LU::EdgeFraction, 0.05,
       { { 0.00, 0.92, 0.94, 0.97 }, { 1.00, 1.00, 1.00, 1.00 } },
-      { { 0.00, 0 }, { 0.10, 0.04 }, { 0.50, 0.35 }, { 1.00, 0.60 } }, {},
+      { { 0.00, 0 }, { 0.25, 0.06 }, { 1.00, 0.35 } }, {},
       { false, 1.0, 0.0, 0.0, 1 },
       "White, translucent, opacity growing with density; for fog and smoke too." },
 
