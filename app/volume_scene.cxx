@@ -53,7 +53,8 @@ std::vector<glm::dvec3> visible_corners(const VolumeScene& scene)
   const BrickRanges& ranges = *plain->ranges;
   const LookupTable table = make_lookup_table(plain->classification, 1.0);
   const VisibleBricks bricks = find_visible_bricks(
-    ranges, [&](float lower, float upper) { return table.can_show(lower, upper); });
+    ranges, [&](float lower, float upper) { return table.can_show(lower, upper); },
+    table.empty_value);
   std::vector<glm::dvec3> corners;
   const auto add_box = [&](const glm::dvec3& lower, const glm::dvec3& upper)
   {

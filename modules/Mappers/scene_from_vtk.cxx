@@ -106,8 +106,9 @@ Light headlight(vtkCamera* camera)
 }
 
 std::string SceneFromVTK::Update(vtkVolumeMapper* mapper, vtkVolume* volume, vtkCamera* camera,
-  vtkLightCollection* lights, int width, int height, bool twoSidedLighting)
+  vtkLightCollection* lights, int width, int height, bool twoSidedLighting, int threads)
 {
+  this->NumberOfThreads = threads;
   vtkVolumeProperty* property = volume->GetProperty(); // made if there is none
   std::string wrong = this->UpdateGrid(mapper, property);
   if (wrong.empty())
@@ -204,7 +205,19 @@ std::string SceneFromVTK::UpdateGrid(vtkVolumeMapper* mapper, vtkVolumeProperty*
   std::copy(dims, dims + 3, grid.dims);
   grid.dims[0] += grid.padding_x;
   this->Converted.clear();
-  converts = converts || !scalars->HasStandardMemoryLayout();
+  if (!scalars->HasStandardMemoryLayout())
+  {
+    if (rgba)
+    {
+      return "colours whose components lie apart are not drawn: copy them to a "
+             "vtkUnsignedCharArray (DeepCopy)";
+    }
+    converts = true;
+  }
+  if (converts)
+  {
+    grid.type = VoxelType::Float32;
+  }
   const std::size_t voxelBytes = size_of(grid.type) * components;
   if (converts || grid.padding_x || static_cast<std::size_t>(voxels) * voxelBytes < 4)
   {
@@ -242,7 +255,8 @@ std::string SceneFromVTK::UpdateGrid(vtkVolumeMapper* mapper, vtkVolumeProperty*
 
 void SceneFromVTK::MeasureRange()
 {
-  auto ranges = std::make_shared<const BrickRanges>(measure_bricks(this->TheScene.grid));
+  auto ranges = std::make_shared<const BrickRanges>(
+    measure_bricks(this->TheScene.grid, this->NumberOfThreads));
   const bool some = ranges->lower <= ranges->upper; // else not one finite voxel
   this->Range[0] = some ? ranges->lower : 0.0;
   this->Range[1] = some ? ranges->upper : 0.0;
@@ -251,6 +265,11 @@ void SceneFromVTK::MeasureRange()
 
 std::string SceneFromVTK::UpdateClassification(vtkVolumeProperty* property)
 {
+  // Asked first: where there is no function yet the property makes one, which modifies it.
+  vtkPiecewiseFunction* opacity = property->GetScalarOpacity(0);
+  const bool gray = property->GetColorChannels(0) == 1;
+  vtkPiecewiseFunction* grayFunction = gray ? property->GetGrayTransferFunction(0) : nullptr;
+  vtkColorTransferFunction* rgbFunction = gray ? nullptr : property->GetRGBTransferFunction(0);
   const MediumKey key{ property, static_cast<unsigned long>(property->GetMTime()),
     this->TheScene.data_revision };
   if (key == this->LastMedium)
@@ -258,7 +277,6 @@ std::string SceneFromVTK::UpdateClassification(vtkVolumeProperty* property)
     return {};
   }
   Classification c;
-  vtkPiecewiseFunction* opacity = property->GetScalarOpacity(0);
   c.unit_distance = property->GetScalarOpacityUnitDistance(0);
   if (!(c.unit_distance > 0.0))
   {
@@ -267,9 +285,6 @@ std::string SceneFromVTK::UpdateClassification(vtkVolumeProperty* property)
   }
   c.lower = this->Range[0];
   c.upper = this->Range[1];
-  const bool gray = property->GetColorChannels(0) == 1;
-  vtkPiecewiseFunction* grayFunction = gray ? property->GetGrayTransferFunction(0) : nullptr;
-  vtkColorTransferFunction* rgbFunction = gray ? nullptr : property->GetRGBTransferFunction(0);
   // Where the functions are constant beyond their end nodes, the table need not go there: its nodes
   // are better spent between.
   double ends[2];

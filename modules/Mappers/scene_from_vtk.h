@@ -30,7 +30,7 @@ public:
   /// empty: a headlight then, as a vtkRenderer makes one. Returns an empty string, or what is wrong
   /// and what to do.
   std::string Update(vtkVolumeMapper* mapper, vtkVolume* volume, vtkCamera* camera,
-    vtkLightCollection* lights, int width, int height, bool twoSidedLighting);
+    vtkLightCollection* lights, int width, int height, bool twoSidedLighting, int threads);
 
   Scene& GetScene() { return this->TheScene; }
 
@@ -43,6 +43,7 @@ private:
   void MeasureRange();
 
   Scene TheScene;
+  int NumberOfThreads = 0;
   double Range[2] = { 0.0, 0.0 };
   double Spacing[3] = { 1.0, 1.0, 1.0 };
   /// Voxels that could not be read in place: converted or padded.

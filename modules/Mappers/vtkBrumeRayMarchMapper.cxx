@@ -34,7 +34,8 @@ nlohmann::json Effect(const char* name, bool on, const std::string& reason, doub
   return { { "name", name }, { "on", on }, { "reason", reason }, { "error_bound", bound } };
 }
 
-nlohmann::json Effects(const brume::Scene& scene, const brume::MarchStatistics& march)
+nlohmann::json Effects(
+  const brume::Scene& scene, const brume::MarchStatistics& march, double leave_error)
 {
   const bool gradientOpacity = !scene.classification.gradient_opacity.empty();
   nlohmann::json effects = nlohmann::json::array();
@@ -55,6 +56,8 @@ nlohmann::json Effects(const brume::Scene& scene, const brume::MarchStatistics& 
   effects.push_back(Effect("surfaces", !scene.surface_depth.empty(),
     scene.surface_depth.empty() ? "no opaque geometry is shown with the volume"
                                 : "rays end at opaque geometry"));
+  effects.push_back(Effect("leaving rays early", march.visible_bricks > 0,
+    "a ray ends when what is behind cannot change its pixel by more than the bound", leave_error));
   const bool leaps = march.visible_bricks < march.bricks;
   effects.push_back(Effect("space leaping", leaps,
     std::to_string(march.bricks - march.visible_bricks) + " of " + std::to_string(march.bricks) +
@@ -111,12 +114,13 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& scene, brume::Film& film)
     {
       const auto start = std::chrono::steady_clock::now();
       this->Internal->Choice = brume::choose_step(
-        scene, film.width, film.height, std::max(StepShare * this->Tolerance, 1e-9));
+        scene, std::max(StepShare * this->Tolerance, 1e-9), this->NumberOfThreads);
       this->Internal->LastStep = key;
       secondsStep =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
     settings.step = this->Internal->Choice.step;
+    settings.step_error = this->Internal->Choice.estimated_error;
   }
   else
   {
@@ -134,8 +138,8 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& scene, brume::Film& film)
   statistics["rays"] = march.rays;
   statistics["threads"] = march.threads;
   statistics["simd"] = march.simd;
-  statistics["step"] = settings.step;
-  statistics["step_in_voxels"] = settings.step / brume::smallest_voxel_edge(scene);
+  statistics["step"] = march.step;
+  statistics["step_in_voxels"] = march.step / brume::smallest_voxel_edge(scene);
   statistics["tolerance"] = this->Tolerance;
   if (this->AutoAdjustSampleDistances)
   {
@@ -148,7 +152,8 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& scene, brume::Film& film)
   {
     statistics["step_chosen_by"] = "caller";
   }
-  statistics["effects"] = Effects(scene, march);
+  statistics["effects"] = Effects(scene, march, settings.leave_error);
+  statistics["ignored_settings"] = this->IgnoredSettings;
   statistics["non_finite_voxels"] = march.non_finite_voxels;
   statistics["bricks"] = march.bricks;
   statistics["visible_bricks"] = march.visible_bricks;

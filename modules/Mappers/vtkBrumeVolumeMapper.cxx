@@ -11,15 +11,18 @@
 #include "vtkImageData.h"
 #include "vtkLightCollection.h"
 #include "vtkNew.h"
+#include "vtkPlaneCollection.h"
 #include "vtkPointData.h"
 #include "vtkPropCollection.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkVolume.h"
+#include "vtkVolumeProperty.h"
 
 #include <chrono>
 #include <cmath>
 #include <new>
+#include <set>
 #include <stdexcept>
 
 struct vtkBrumeVolumeMapper::Internals
@@ -28,6 +31,8 @@ struct vtkBrumeVolumeMapper::Internals
   vtkNew<vtkBrumeFilmBlender> Blender;
   brume::Film Film;
   vtkRenderWindow* Window = nullptr; ///< the window being drawn into, for its abort check
+  int RendererTwoSided = -1;         ///< the renderer's TwoSidedLighting; -1 without a renderer
+  std::set<std::string> Warned;      ///< settings that were warned of
 };
 
 vtkBrumeVolumeMapper::vtkBrumeVolumeMapper()
@@ -61,11 +66,15 @@ const brume::Scene* vtkBrumeVolumeMapper::UpdateScene(
   {
     this->GetInputAlgorithm()->Update();
   }
+  this->WarnOfIgnoredSettings(volume);
+  const bool twoSided = this->Internal->RendererTwoSided >= 0
+    ? this->Internal->RendererTwoSided != 0
+    : this->TwoSidedLighting != 0;
   std::string wrong;
   try
   {
     wrong = this->Internal->Builder.Update(
-      this, volume, camera, lights, width, height, this->TwoSidedLighting != 0);
+      this, volume, camera, lights, width, height, twoSided, this->NumberOfThreads);
   }
   catch (const std::bad_alloc&)
   {
@@ -86,6 +95,7 @@ const brume::Scene* vtkBrumeVolumeMapper::UpdateScene(
 bool vtkBrumeVolumeMapper::RenderUpdated(brume::Scene& scene, brume::Film& film)
 {
   this->SetAbortExecute(0);
+  this->Statistics = "{}";
   this->InvokeEvent(vtkCommand::StartEvent);
   bool completed = false;
   try
@@ -178,6 +188,33 @@ void vtkBrumeVolumeMapper::ResetClippingRange(vtkVolume* volume, vtkCamera* came
   camera->SetClippingRange(nearest, farthest);
 }
 
+void vtkBrumeVolumeMapper::WarnOfIgnoredSettings(vtkVolume* volume)
+{
+  this->IgnoredSettings.clear();
+  const auto ignored = [this](bool is, const char* setting)
+  {
+    if (is)
+    {
+      this->IgnoredSettings.emplace_back(setting);
+    }
+  };
+  vtkVolumeProperty* property = volume->GetProperty();
+  ignored(this->GetBlendMode() != vtkVolumeMapper::COMPOSITE_BLEND,
+    "BlendMode other than COMPOSITE_BLEND");
+  ignored(this->GetCropping() != 0, "Cropping");
+  ignored(this->GetClippingPlanes() && this->GetClippingPlanes()->GetNumberOfItems() > 0,
+    "ClippingPlanes");
+  ignored(property->GetTransferFunctionMode() == vtkVolumeProperty::TF_2D,
+    "TransferFunctionMode TF_2D");
+  for (const std::string& setting : this->IgnoredSettings)
+  {
+    if (this->Internal->Warned.insert(setting).second)
+    {
+      vtkWarningMacro(<< setting << " is not supported and is ignored.");
+    }
+  }
+}
+
 void vtkBrumeVolumeMapper::ReadSurfaceDepth(vtkRenderer* renderer, brume::Scene& scene,
   const brume::Film& film, int left, int bottom) const
 {
@@ -215,9 +252,11 @@ void vtkBrumeVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
   {
     return;
   }
-  this->TwoSidedLighting = renderer->GetTwoSidedLighting();
-  if (!this->UpdateScene(
-        volume, renderer->GetActiveCamera(), renderer->GetLights(), width, height))
+  this->Internal->RendererTwoSided = renderer->GetTwoSidedLighting();
+  const bool updated = this->UpdateScene(
+    volume, renderer->GetActiveCamera(), renderer->GetLights(), width, height);
+  this->Internal->RendererTwoSided = -1;
+  if (!updated)
   {
     return;
   }

@@ -19,7 +19,8 @@
  * RenderFilm() and RenderImage() make the same picture with no window, no OpenGL and no display.
  *
  * Lengths (sample distance, opacity unit distance) are measured in the data's own coordinates,
- * before the prop's matrix, as in VTK. docs/dev/units.md has all conventions.
+ * before the prop's matrix, as in VTK. A setting of VTK's that is not followed
+ * warns once, by name. docs/dev/units.md has all conventions.
  *
  * Events: vtkCommand::StartEvent, ProgressEvent (from the calling thread, GetProgress() in [0, 1])
  * and EndEvent around a render. A render stops, and draws nothing, when an observer calls
@@ -33,6 +34,7 @@
 
 #include <memory> // for std::unique_ptr
 #include <string> // for std::string
+#include <vector> // for std::vector
 
 class vtkCamera;
 class vtkImageData;
@@ -149,12 +151,15 @@ protected:
   int NumberOfThreads = 0;
   vtkTypeBool TwoSidedLighting = 1;
   std::string Statistics;
+  /// Settings of the last scene's VTK objects that the mapper does not follow, by name.
+  std::vector<std::string> IgnoredSettings;
 
 private:
   vtkBrumeVolumeMapper(const vtkBrumeVolumeMapper&) = delete;
   void operator=(const vtkBrumeVolumeMapper&) = delete;
 
   bool RenderUpdated(brume::Scene& scene, brume::Film& film);
+  void WarnOfIgnoredSettings(vtkVolume* volume);
   void ReadSurfaceDepth(vtkRenderer* renderer, brume::Scene& scene, const brume::Film& film,
     int left, int bottom) const;
 

@@ -1,7 +1,9 @@
 #include "Transport/bricks.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -21,6 +23,7 @@ struct RangeOf
 {
   float lower = std::numeric_limits<float>::infinity();
   float upper = -std::numeric_limits<float>::infinity();
+  bool all_finite = true;
 
   void read_row(const T* row, int count, int stride)
   {
@@ -31,6 +34,7 @@ struct RangeOf
         // A NaN fails both comparisons; infinities are told apart by the finite bounds.
         const T value = row[i * stride];
         const bool finite = std::abs(value) <= std::numeric_limits<T>::max();
+        all_finite = all_finite && finite;
         lower = finite && value < lower ? value : lower;
         upper = finite && value > upper ? value : upper;
       }
@@ -57,6 +61,10 @@ void measure(const Grid& grid, BrickRanges& result)
   constexpr int edge = BrickRanges::edge;
   const int* n = grid.dims;
   const int stride = grid.components;
+  if constexpr (std::is_floating_point_v<T>)
+  {
+    result.reaches_non_finite.resize(result.size());
+  }
   const T* values = static_cast<const T*>(grid.voxels) + (stride - 1);
   std::atomic<std::size_t> non_finite{ 0 };
 
@@ -102,24 +110,22 @@ void measure(const Grid& grid, BrickRanges& result)
         {
           result.minimum[first + bx] = row_ranges[bx].lower;
           result.maximum[first + bx] = row_ranges[bx].upper;
+          if constexpr (std::is_floating_point_v<T>)
+          {
+            result.reaches_non_finite[first + bx] = !row_ranges[bx].all_finite;
+          }
         }
       }
     });
   result.non_finite_voxels = non_finite;
-}
-
-}
-
-BrickRanges measure_bricks(const Grid& grid)
-{
-  grid.validate();
-  BrickRanges result;
-  for (int axis = 0; axis < 3; ++axis)
+  if (result.non_finite_voxels == 0)
   {
-    result.dims[axis] = (grid.dims[axis] - 1) / BrickRanges::edge + 1;
+    result.reaches_non_finite.clear();
   }
-  result.minimum.resize(result.size());
-  result.maximum.resize(result.size());
+}
+
+void measure_type(const Grid& grid, BrickRanges& result)
+{
   switch (grid.type)
   {
     case VoxelType::UInt8:
@@ -138,6 +144,22 @@ BrickRanges measure_bricks(const Grid& grid)
       measure<float>(grid, result);
       break;
   }
+}
+
+}
+
+BrickRanges measure_bricks(const Grid& grid, int threads)
+{
+  grid.validate();
+  BrickRanges result;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    result.dims[axis] = (grid.dims[axis] - 1) / BrickRanges::edge + 1;
+  }
+  result.minimum.resize(result.size());
+  result.maximum.resize(result.size());
+  tbb::task_arena arena(threads > 0 ? threads : tbb::info::default_concurrency());
+  arena.execute([&] { measure_type(grid, result); });
   const float lower = *std::min_element(result.minimum.begin(), result.minimum.end());
   const float upper = *std::max_element(result.maximum.begin(), result.maximum.end());
   if (lower <= upper)
@@ -148,8 +170,8 @@ BrickRanges measure_bricks(const Grid& grid)
   return result;
 }
 
-VisibleBricks find_visible_bricks(
-  const BrickRanges& ranges, const std::function<bool(float, float)>& can_show)
+VisibleBricks find_visible_bricks(const BrickRanges& ranges,
+  const std::function<bool(float, float)>& can_show, float empty_value)
 {
   VisibleBricks result;
   std::copy(ranges.dims, ranges.dims + 3, result.dims);
@@ -160,7 +182,14 @@ VisibleBricks find_visible_bricks(
   result.distance.assign(ranges.size(), far);
   for (std::size_t i = 0; i < ranges.size(); ++i)
   {
-    if (ranges.minimum[i] <= ranges.maximum[i] && can_show(ranges.minimum[i], ranges.maximum[i]))
+    float lower = ranges.minimum[i];
+    float upper = ranges.maximum[i];
+    if (!ranges.reaches_non_finite.empty() && ranges.reaches_non_finite[i])
+    {
+      lower = std::min(lower, empty_value);
+      upper = std::max(upper, empty_value);
+    }
+    if (lower <= upper && can_show(lower, upper))
     {
       result.distance[i] = 0;
       ++result.visible;

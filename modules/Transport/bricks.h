@@ -28,12 +28,14 @@ struct BrickRanges
   float upper = -1.0f;
   /// NaN or infinite voxels. They are drawn as empty, and are in no range.
   std::size_t non_finite_voxels = 0;
+  /// 1 for each brick that can reach such a voxel, else 0; no entries where the grid has none.
+  std::vector<std::uint8_t> reaches_non_finite;
 
   std::size_t size() const { return static_cast<std::size_t>(dims[0]) * dims[1] * dims[2]; }
 };
 
-/// Reads every voxel once, on all threads of the current TBB arena.
-BrickRanges measure_bricks(const Grid& grid);
+/// Reads every voxel once, on so many threads (0: as many as the machine has processors).
+BrickRanges measure_bricks(const Grid& grid, int threads = 0);
 
 /// How far each brick is from one that can be seen, in bricks, the largest distance along an axis:
 /// 0 for a brick that can be seen itself, 1 where only its neighbours can, and so on. A ray may
@@ -45,8 +47,9 @@ struct VisibleBricks
   std::size_t visible = 0; ///< bricks that can be seen
 };
 
-/// `can_show(lower, upper)` tells whether any value in the range has an optical depth.
-VisibleBricks find_visible_bricks(
-  const BrickRanges& ranges, const std::function<bool(float, float)>& can_show);
+/// `can_show(lower, upper)` tells whether any value in the range has an optical depth;
+/// `empty_value` stands in for non-finite voxels when values are interpolated.
+VisibleBricks find_visible_bricks(const BrickRanges& ranges,
+  const std::function<bool(float, float)>& can_show, float empty_value);
 
 }

@@ -39,7 +39,7 @@ public:
     Stride[1] = voxel * grid.dims[0];
     Stride[2] = voxel * grid.dims[0] * grid.dims[1];
     LastWord = grid.bytes() - sizeof(std::int32_t);
-    // Offsets are 32 bits wide; they count from the middle of what they can reach.
+    // Offsets of gathers are 32 bits wide.
     Far = grid.bytes() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
   }
 

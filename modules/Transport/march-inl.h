@@ -203,7 +203,7 @@ HWY_INLINE Real gradient_factor(const MarchTask& task, const Vec3<Real>& gradien
   constexpr int last = LookupTable::intervals;
   const Real magnitude = hn::Sqrt(dot(scaled, scaled));
   const Real position =
-    hn::Min(magnitude * real(task.table->gradient_table_scale), real(static_cast<float>(last)));
+    hn::Min(magnitude, real(static_cast<float>(last)));
   const Int index = hn::Min(hn::ConvertTo(int_tag, position), integer(last - 1));
   const float* factor = task.table->gradient_factor.data();
   return lerp(hn::GatherIndex(float_tag, factor, index),
@@ -392,7 +392,7 @@ inline void store(const MarchTask& task, int x, int y, const Rays& rays, const G
     }
     task.film->depth[pixel] =
       rays.start_offset[lane] + half_way[lane] * static_cast<float>(task.step);
-    task.film->error[pixel] = left[lane];
+    task.film->error[pixel] = task.step_error + left[lane] * task.brightest;
   }
 }
 

@@ -19,11 +19,13 @@ struct MarchTask
   const RayMaker* rays = nullptr;
   const LookupTable* table = nullptr; ///< classified grids
   const ShadeModel* shade = nullptr;  ///< classified grids
-  float gradient_scale[3] = { 1, 1, 1 };
+  float gradient_scale[3] = { 1, 1, 1 };  ///< a voxel's difference to places in the gradient's table
   double depth_per_value = 0.0;           ///< density grids: optical depth of a step of density 1
   const VisibleBricks* bricks = nullptr;  ///< null: nothing to leap over
   bool non_finite = false;                ///< the grid holds NaN or infinities
   double step = 1.0;                      ///< in the data's units
+  float step_error = 0.0f;                ///< part of Film::error
+  float brightest = 1.0f;                 ///< bound of the light that may come from behind
   float leave_below = 0.0f;               ///< a ray ends when its transmittance is below this
   int x0 = 0, x1 = 0, y0 = 0, y1 = 0;     ///< the tile's pixels
   Film* film = nullptr;

@@ -89,22 +89,24 @@ struct Marcher::Cache
   double table_step = 0.0;
   LookupTable table;
 
-  void update_ranges(const Scene& scene)
+  void update_ranges(const Scene& scene, int threads)
   {
-    if (!this->ranges || this->data_revision != scene.data_revision)
+    if (!this->ranges || this->data_revision != scene.data_revision || scene.data_revision == 0)
     {
-      this->ranges = scene.ranges ? scene.ranges
-                                  : std::make_shared<BrickRanges>(measure_bricks(scene.grid));
+      this->ranges = scene.ranges
+        ? scene.ranges
+        : std::make_shared<BrickRanges>(measure_bricks(scene.grid, threads));
       this->data_revision = scene.data_revision;
       this->have_visible = false;
     }
   }
 
-  void update(const Scene& scene, double step)
+  void update(const Scene& scene, double step, int threads)
   {
-    this->update_ranges(scene);
+    this->update_ranges(scene, threads);
     const bool classified = scene.meaning == ValueMeaning::Classified;
-    const bool new_medium = this->medium_revision != scene.medium_revision;
+    const bool new_medium =
+      this->medium_revision != scene.medium_revision || scene.medium_revision == 0;
     if (classified && (!this->have_table || new_medium || this->table_step != step))
     {
       this->table = make_lookup_table(scene.classification, step);
@@ -118,7 +120,8 @@ struct Marcher::Cache
         {
           return classified ? this->table.can_show(lower, upper)
                             : upper > 0.0f && scene.density.extinction > 0.0;
-        });
+        },
+        classified ? this->table.empty_value : 0.0f);
       this->have_visible = true;
     }
     this->medium_revision = scene.medium_revision;
@@ -159,10 +162,10 @@ MarchStatistics Marcher::render(
   const int threads =
     settings.threads > 0 ? settings.threads : tbb::info::default_concurrency();
   tbb::task_arena arena(threads);
-  const double step = std::max(settings.step, diagonal(scene) / double(1 << 22));
+  const double step = std::max(settings.step, diagonal(scene) / double(1 << 16));
 
   const auto start_prepare = std::chrono::steady_clock::now();
-  arena.execute([&] { this->Kept->update(scene, step); });
+  this->Kept->update(scene, step, threads);
   const Cache& kept = *this->Kept;
   const ShadeModel shade = prepare_shading(scene);
   const RayMaker rays(scene, film.width, film.height);
@@ -173,6 +176,7 @@ MarchStatistics Marcher::render(
   common.rays = &rays;
   common.non_finite = kept.ranges->non_finite_voxels > 0;
   common.step = step;
+  common.step_error = static_cast<float>(settings.step_error);
   common.film = &film;
   common.bricks = kept.visible.visible < kept.ranges->size() ? &kept.visible : nullptr;
   if (scene.meaning == ValueMeaning::Classified)
@@ -182,11 +186,12 @@ MarchStatistics Marcher::render(
     // What is behind can change a pixel by no more than the transmittance left times the brightest
     // of the matter there and of a white background.
     const double brightest = std::max(1.0, kept.table.brightest * shade.brightest);
+    common.brightest = static_cast<float>(brightest);
     common.leave_below = static_cast<float>(settings.leave_error / brightest);
     for (int axis = 0; axis < 3; ++axis)
     {
-      common.gradient_scale[axis] =
-        static_cast<float>(1.0 / scene.classification.gradient_scale[axis]);
+      common.gradient_scale[axis] = static_cast<float>(
+        kept.table.gradient_table_scale / scene.classification.gradient_scale[axis]);
     }
   }
   else
@@ -246,6 +251,7 @@ MarchStatistics Marcher::render(
   }
 
   statistics.seconds = seconds_since(start);
+  statistics.step = step;
   statistics.samples = samples;
   statistics.rays = ray_count;
   statistics.threads = threads;

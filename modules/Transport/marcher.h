@@ -17,11 +17,13 @@ namespace brume
 struct MarchSettings
 {
   /// Length of a step, in the data's units; > 0. The last step of a ray is cut at the grid's end.
-  /// Rays of more than 2²² steps get longer ones.
+  /// Rays of more than 2¹⁶ steps get longer ones: beyond, rounding would cost more than they gain.
   double step = 1.0;
   /// The largest error of a pixel, as a fraction of white, that may be made by ending rays early;
   /// ≥ 0. A ray is left when all that is behind could not change its pixel by more.
   double leave_error = 0.001;
+  /// What the caller expects the step to cost in accuracy; added to Film::error. ≥ 0.
+  double step_error = 0.0;
   /// Worker threads; 0 for as many as the machine has processors.
   int threads = 0;
 };
@@ -31,6 +33,7 @@ struct MarchStatistics
 {
   double seconds_prepare = 0.0; ///< scanning voxels, building tables; 0 when all was kept
   double seconds = 0.0;         ///< the render alone
+  double step = 0.0;            ///< the step that was taken, in the data's units
   std::uint64_t samples = 0;    ///< places at which the grid was read
   std::uint64_t rays = 0;       ///< rays that met the grid
   int threads = 0;

@@ -1,7 +1,7 @@
-// The formulas of optics, each once. Theory and sources: docs/theory/optics.md.
+// The formulas of optics in double precision. Theory and sources: docs/theory/optics.md.
 //
-// Where a formula serves packets of rays too it is a template over the number type R: double here,
-// a SIMD vector in the kernels (packet-inl.h gives that the same functions).
+// packet-inl.h has the one that packets of rays need, opacity_from_optical_depth, as the series that
+// single precision allows; longer formulas are templates that serve both (shading-inl.h).
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace brume
 {
 
 /// The smallest transmittance that an opacity is taken to leave over its unit distance, so that an
-/// opacity of 1 is a finite extinction (36.8 per unit distance).
+/// opacity of 1 is a finite extinction (36.7 per unit distance).
 constexpr double smallest_unit_transmittance = 1e-16;
 
 /// Extinction coefficient σt = −ln(1 − α) / d of a material with opacity α over the distance d > 0,

@@ -22,6 +22,11 @@ namespace brume
 namespace
 {
 
+/// Further pieces of a stretch for each whole rise or fall of a transfer function in it, and their
+/// bound.
+constexpr double pieces_across = 8.0;
+constexpr int most_factor = 63;
+
 /// Below this transmittance nothing can be seen in a float picture.
 constexpr double nothing_passes = 1e-9;
 
@@ -127,12 +132,18 @@ RayResult integrate_cells(
   double from, to;
   while (walk.next(from, to))
   {
-    const double width = (to - from) / pieces;
-    if (!(width > 0.0) || !medium.visible(segment.begin + along * (0.5 * (from + to))))
+    if (!(to > from) || !medium.visible(segment.begin + along * (0.5 * (from + to))))
     {
       continue;
     }
-    for (int piece = 0; piece < pieces; ++piece)
+    // A stretch that crosses peaks or edges of the transfer functions gets more pieces, so that two
+    // coarse results do not agree on having missed them.
+    const double crossed = medium.variation(
+      medium.value(segment.begin + along * from), medium.value(segment.begin + along * to));
+    const int count =
+      pieces * (1 + static_cast<int>(std::min(pieces_across * crossed, double(most_factor))));
+    const double width = (to - from) / count;
+    for (int piece = 0; piece < count; ++piece)
     {
       const double middle = from + width * (piece + 0.5);
       result.pass(medium.at(segment.begin + along * middle, along), width * segment.length,

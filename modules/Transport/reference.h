@@ -1,5 +1,6 @@
 // The truth that pictures are measured against: the same optics in double precision, refined until
-// the picture stops changing. Slow, plain, and independent of the kernels.
+// the picture stops changing. Slow and plain. It shares no arithmetic with the kernels; of their
+// machinery it uses the brick ranges, to pass over what cannot be seen.
 #pragma once
 
 #include "Transport/film.h"
@@ -38,7 +39,7 @@ struct ReferenceStatistics
 /// Fills the film with the truth. Along each ray, the places where it passes from one voxel cell to
 /// the next are found first; each stretch between two of them, in which the interpolated value is
 /// smooth, is cut into pieces of equal length (midpoint rule), 1, 2, 4, 8, … of them until the ray's
-/// result stops changing. Film::error holds the last change. Throws as Marcher::render does.
+/// result stops changing; more where the transfer functions rise and fall within the stretch. Film::error holds the last change. Throws as Marcher::render does.
 ReferenceStatistics render_reference(const Scene& scene, const ReferenceSettings& settings,
   Film& film, const Progress& progress = {});
 

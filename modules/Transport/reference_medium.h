@@ -46,6 +46,10 @@ public:
       }
     }
     this->find_visible();
+    if (!this->Extinction.empty())
+    {
+      this->add_up_variation();
+    }
     const glm::dmat4 world_from_index = scene.world_from_data * scene.data_from_index;
     this->WorldFromIndex = world_from_index;
     this->WorldFromGradient = glm::transpose(glm::inverse(glm::dmat3(world_from_index)));
@@ -64,20 +68,33 @@ public:
     return this->Bricks.distance[index] == 0;
   }
 
+  /// The value at a place, as interpolation gives it; of 4 components the last.
+  double value(const glm::dvec3& place) const
+  {
+    return this->interpolated(this->inside(place), this->TheScene.grid.components - 1);
+  }
+
+  /// How much the transfer functions go up and down between two values: 1 for a way from nothing to
+  /// their largest extinction, or from black to white. 0 for densities.
+  double variation(double from, double to) const
+  {
+    if (this->Variation.empty())
+    {
+      return 0.0;
+    }
+    const Classification& c = this->TheScene.classification;
+    const std::size_t count = this->Variation.size();
+    return std::abs(
+      interpolate(this->Variation.data(), table_position(to, c.lower, c.upper, count)) -
+      interpolate(this->Variation.data(), table_position(from, c.lower, c.upper, count)));
+  }
+
   /// `along` is the ray's direction in index space.
   Optical at(const glm::dvec3& place, const glm::dvec3& along) const
   {
     Optical result;
     const Grid& grid = this->TheScene.grid;
-    glm::dvec3 p;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      p[axis] = std::clamp(place[axis], 0.0, double(grid.dims[axis] - 1));
-      if (!grid.linear)
-      {
-        p[axis] = std::floor(p[axis] + 0.5);
-      }
-    }
+    const glm::dvec3 p = this->inside(place);
     const double value = this->interpolated(p, grid.components - 1);
     if (this->TheScene.meaning == ValueMeaning::Density)
     {
@@ -105,6 +122,39 @@ public:
   }
 
 private:
+  /// The place that the value at `place` is read at.
+  glm::dvec3 inside(const glm::dvec3& place) const
+  {
+    const Grid& grid = this->TheScene.grid;
+    glm::dvec3 p;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      p[axis] = std::clamp(place[axis], 0.0, double(grid.dims[axis] - 1));
+      if (!grid.linear)
+      {
+        p[axis] = std::floor(p[axis] + 0.5);
+      }
+    }
+    return p;
+  }
+
+  void add_up_variation()
+  {
+    const Classification& c = this->TheScene.classification;
+    const double most =
+      std::max(*std::max_element(this->Extinction.begin(), this->Extinction.end()), 1e-300);
+    this->Variation.assign(this->Extinction.size(), 0.0);
+    for (std::size_t i = 1; i < this->Extinction.size(); ++i)
+    {
+      double step = std::abs(this->Extinction[i] - this->Extinction[i - 1]) / most;
+      for (std::size_t channel = 0; channel < 3 && !c.rgb.empty(); ++channel)
+      {
+        step = std::max(step, std::abs(c.rgb[3 * i + channel] - c.rgb[3 * i - 3 + channel]));
+      }
+      this->Variation[i] = this->Variation[i - 1] + step;
+    }
+  }
+
   void find_visible()
   {
     const Scene& scene = this->TheScene;
@@ -118,7 +168,9 @@ private:
       : VisibleValues(scene.classification.lower, scene.classification.upper, seen);
     this->Bricks =
       find_visible_bricks(scene.ranges ? *scene.ranges : measure_bricks(scene.grid),
-        [&](float lower, float upper) { return seen.empty() ? upper > 0.0f : values.any(lower, upper); });
+        [&](float lower, float upper)
+        { return seen.empty() ? upper > 0.0f : values.any(lower, upper); },
+        static_cast<float>(this->EmptyValue));
   }
 
   double voxel(int i, int j, int k, int component) const
@@ -238,6 +290,7 @@ private:
   bool NeedsGradient;
   double EmptyValue = 0.0;
   std::vector<double> Extinction; ///< at the nodes of the opacity
+  std::vector<double> Variation;  ///< summed from the first node on
   VisibleBricks Bricks;
   glm::dmat4 WorldFromIndex{ 1.0 };
   glm::dmat3 WorldFromGradient{ 1.0 };

@@ -73,7 +73,7 @@ struct Light
   glm::dvec3 position{ 0.0 };
   /// 1 / (a + b d + c d²) at the distance d; positional lights only.
   glm::dvec3 attenuation{ 1.0, 0.0, 0.0 };
-  /// Half angle of the cone in degrees; over 90 the light shines all round. Positional only.
+  /// Half angle of the cone in degrees; from 90 on the light shines all round. Positional only.
   double cone_angle = 180.0;
   /// Exponent of the fall-off inside the cone.
   double exponent = 1.0;
@@ -120,7 +120,7 @@ struct Scene
   /// from the bottom up, as many as the film has pixels; empty for none. Rays end there.
   std::vector<float> surface_depth;
 
-  /// Keys of the marcher's caches. Give a new number whenever the voxels (data_revision) or their
+  /// Keys of the marcher's caches; 0 keeps nothing. Give a new number whenever the voxels (data_revision) or their
   /// meaning (medium_revision: density, classification) change.
   std::uint64_t data_revision = 0;
   std::uint64_t medium_revision = 0;

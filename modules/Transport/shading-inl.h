@@ -1,6 +1,6 @@
 // Surface-like shading of a volume, once for scalars and packets. Included inside the namespace
 // that has the number type R and its functions: dot, max, select, pow, rsqrt_or_zero.
-// No include guard: scalar.h includes it once, each SIMD target once more.
+// No include guard: shading.h includes it once, each SIMD target once more.
 
 /// Light that a light source of the model sends to a point: how much, and from where.
 template <class R>
@@ -25,9 +25,10 @@ Incidence<R> incidence(const ShadeLight& light, const Vec3<R>& place)
   const R inverse = rsqrt_or_zero(square);
   const R distance = square * inverse;
   const Vec3<R> travel = offset * inverse;
-  R strength = broadcast<R>(1.0f) /
-    (broadcast<R>(light.attenuation[0]) + broadcast<R>(light.attenuation[1]) * distance +
-      broadcast<R>(light.attenuation[2]) * square);
+  const R weakening = broadcast<R>(light.attenuation[0]) +
+    broadcast<R>(light.attenuation[1]) * distance + broadcast<R>(light.attenuation[2]) * square;
+  // Never a division by 0: at the lamp itself, or with all its factors 0.
+  R strength = broadcast<R>(1.0f) / max(weakening, broadcast<R>(1e-12f));
   if (light.cone_cosine > -1.0f)
   {
     const R cosine = dot(travel, along);

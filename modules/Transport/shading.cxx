@@ -37,7 +37,7 @@ ShadeModel prepare_shading(const Scene& scene)
     }
     const double degree = 3.14159265358979323846 / 180.0;
     l.cone_cosine =
-      light.cone_angle > 90.0 ? -2.0f : static_cast<float>(std::cos(light.cone_angle * degree));
+      light.cone_angle >= 90.0 ? -2.0f : static_cast<float>(std::cos(light.cone_angle * degree));
     l.exponent = static_cast<float>(light.exponent);
     l.positional = light.positional;
     model.needs_place = model.needs_place || l.positional;
@@ -50,11 +50,21 @@ ShadeModel prepare_shading(const Scene& scene)
   // A gradient is a covector: it goes to the world by the inverse transpose.
   const glm::dmat4 world_from_index = scene.world_from_data * scene.data_from_index;
   const glm::dmat3 covector = glm::transpose(glm::inverse(glm::dmat3(world_from_index)));
+  // Only its direction counts. Its length is brought near 1, or its square would leave the range of
+  // single precision for values or spacings that are very large or small.
+  double largest = 0.0;
+  for (int column = 0; column < 3; ++column)
+  {
+    largest = std::max(largest, glm::length(covector[column]));
+  }
+  const double values = scene.classification.upper - scene.classification.lower;
+  const double to_unit = 1.0 / (largest * (values > 0.0 ? values : 1.0));
   for (int row = 0; row < 3; ++row)
   {
     for (int column = 0; column < 3; ++column)
     {
-      model.world_from_gradient[3 * row + column] = static_cast<float>(covector[column][row]);
+      model.world_from_gradient[3 * row + column] =
+        static_cast<float>(covector[column][row] * to_unit);
     }
     for (int column = 0; column < 4; ++column)
     {

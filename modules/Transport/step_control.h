@@ -17,10 +17,10 @@ struct StepChoice
 /// The longest of 2, 1, ½, … and 1/32 of the smallest voxel edge with which the picture's largest
 /// error is expected to be within `tolerance` (a fraction of white, > 0); 1/32 where none is.
 ///
-/// The expectation is measured: up to 256 rays spread over the picture of `width` × `height` pixels
-/// are integrated in double precision with each step and with half of it. The midpoint rule's error
+/// The expectation is measured: 256 rays of the scene's camera, spread evenly over the volume's own
+/// outline whatever part of it is in the picture, are integrated in double precision with each step and with half of it. The midpoint rule's error
 /// falls with the square of the step, so that 4/3 of the largest change is the error of the longer.
-StepChoice choose_step(const Scene& scene, int width, int height, double tolerance);
+StepChoice choose_step(const Scene& scene, double tolerance, int threads = 0);
 
 /// The smallest edge of a voxel, in the data's units.
 double smallest_voxel_edge(const Scene& scene);
