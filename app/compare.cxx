@@ -4,6 +4,7 @@
 #include "interruption.h"
 #include "machine.h"
 #include "mapper_names.h"
+#include "option_checks.h"
 #include "presets.h"
 #include "private_display.h"
 #include "scene_options.h"
@@ -27,6 +28,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -72,14 +75,15 @@ public:
   {
     std::error_code error;
     fs::path missing = fs::absolute(path, error);
-    while (!missing.empty() && !fs::exists(missing, error))
+    while (!missing.empty() && !fs::exists(fs::symlink_status(missing, error)))
     {
       this->Made = missing;
       missing = missing.parent_path();
     }
     fs::create_directories(path, error);
-    if (error || !fs::is_directory(path))
+    if (error || !fs::is_directory(path, error))
     {
+      this->remove();
       throw Failure(path, "the output folder cannot be made (" +
           (error ? error.message() : std::string("a file is there")) + ")",
         "name another with --output");
@@ -172,7 +176,13 @@ std::vector<MapperName> wanted_mappers(const Options& options)
   std::vector<MapperName> wanted;
   for (const std::string& name : options.mappers)
   {
-    wanted.push_back(find_mapper(name, "--mappers"));
+    const MapperName& mapper = find_mapper(name, "--mappers");
+    if (std::any_of(wanted.begin(), wanted.end(),
+          [&](const MapperName& other) { return other.kind == mapper.kind; }))
+    {
+      throw Failure("--mappers " + name, "it is named twice", "name each once", BadCall);
+    }
+    wanted.push_back(mapper);
   }
   return wanted.empty() ? mapper_names() : wanted;
 }
@@ -292,16 +302,18 @@ void add_compare(CLI::App& program)
     ->type_name("DIR");
   command
     ->add_option("--mappers", options->mappers,
-      "Which, separated by commas [" + list_mapper_names() + "]")
+      "Which, separated by commas: " + list_mapper_names() + " [all]")
     ->delimiter(',')
-    ->type_name("M,…");
+    ->type_name("M[,M]");
   command
     ->add_option("--repetitions", options->repetitions,
       "Timed renders of each mapper, after one to warm up [5]")
-    ->check(CLI::Range(1, 1000))
+    ->check(number("a whole number from 1 to 1000",
+      [](double v) { return v >= 1 && v <= 1000 && v == std::floor(v); }))
     ->type_name("N");
   command->get_option("--sample-distance")
     ->description("Distance between samples for all mappers, in world units [half a voxel]");
+  command->footer("Example: brume compare scan.nii.gz --output comparison");
   command->callback(
     [options]
     {

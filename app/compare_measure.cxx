@@ -10,7 +10,9 @@
 
 #include "vtkBrumeRayMarchMapper.h"
 
+#include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
+#include "vtkCommand.h"
 #include "vtkImageData.h"
 #include "vtkLightCollection.h"
 #include "vtkVolume.h"
@@ -81,6 +83,16 @@ ComparisonMeasure::ComparisonMeasure(const VolumeScene& scene, double step, int 
   this->Mapper->SetNumberOfThreads(scene.options.threads);
   this->Mapper->AutoAdjustSampleDistancesOff();
   this->Mapper->SetSampleDistance(step);
+  vtkNew<vtkCallbackCommand> observer;
+  observer->SetCallback(
+    [](vtkObject* caller, unsigned long, void*, void*)
+    {
+      if (InterruptionWatch::requested())
+      {
+        static_cast<vtkAlgorithm*>(caller)->AbortExecuteOn();
+      }
+    });
+  this->Mapper->AddObserver(vtkCommand::ProgressEvent, observer);
   scene.volume->SetMapper(this->Mapper);
   vtkBrumeVolumeMapper::ResetClippingRange(scene.volume, scene.camera);
 }
@@ -180,6 +192,7 @@ void ComparisonMeasure::measure_ray_march(ComparisonEntry& entry)
       if (!this->Mapper->RenderFilm(
             this->Scene.volume, this->Scene.camera, this->Scene.lights, film))
       {
+        InterruptionWatch::check("compare");
         throw Failure(this->Scene.options.input, "it cannot be drawn", "see brume info");
       }
       const auto now = nlohmann::json::parse(this->Mapper->GetStatistics());

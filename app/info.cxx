@@ -1,6 +1,8 @@
 // brume info INPUT: what a volume is, before anything is drawn.
 #include "command.h"
 #include "input.h"
+#include "output_check.h"
+#include "scene_options.h"
 #include "volume_summary.h"
 
 #include "atomic_file.h"
@@ -211,6 +213,7 @@ void print(std::ostream& out, const Json& j, const VolumeSummary& summary)
 
 void run(const Options& options)
 {
+  check_output(options.json, options.input);
   // Messages are part of what is told, so they are not written to standard error as well.
   const Input input = open_input_with_bar(options.input, options.quiet);
   const VolumeSummary summary = summarize(input.image);
@@ -231,10 +234,11 @@ void add_info(CLI::App& program)
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("info",
     "Tell what a volume is: size, spacing, orientation, values and their histogram");
-  command->add_option("INPUT", options->input, "A file, or sample:NAME")->required();
+  add_input(*command, options->input);
   command->add_option("--json", options->json, "Write the same, as JSON, to FILE")
     ->type_name("FILE");
   command->add_flag("--quiet", options->quiet, "No progress bar");
+  command->footer("Example: brume info scan.nii.gz --json scan.json");
   command->callback([options] { run(*options); });
 }
 

@@ -1,6 +1,7 @@
 #include "input.h"
 
 #include "command.h"
+#include "interruption.h"
 #include "progress.h"
 
 #include "vtkBrumeImageReader.h"
@@ -29,6 +30,7 @@ Input make_sample(const std::string& name, const Progress& progress)
     if (name == sample.name)
     {
       Input input = sample.make(progress);
+      InterruptionWatch::check(("sample:" + name).c_str());
       input.name = "sample:" + name;
       input.format = "sample";
       return input;
@@ -46,6 +48,10 @@ void hear(vtkObject* caller, unsigned long event, void* client, void*)
   if (event == vtkCommand::ProgressEvent && progress)
   {
     progress(static_cast<vtkAlgorithm*>(caller)->GetProgress());
+  }
+  if (event == vtkCommand::ProgressEvent && InterruptionWatch::requested())
+  {
+    static_cast<vtkAlgorithm*>(caller)->AbortExecuteOn();
   }
 }
 
@@ -66,6 +72,7 @@ Input open_input(const std::string& spec, const Progress& progress)
   reader->AddObserver(vtkCommand::ProgressEvent, ear);
   reader->SetFileName(spec.c_str());
   reader->Update();
+  InterruptionWatch::check(spec.c_str());
   if (*reader->GetErrorMessage())
   {
     // "FILE: what is wrong: what to do", as Failure has it.

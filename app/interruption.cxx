@@ -2,6 +2,8 @@
 
 #include "command.h"
 
+#include "atomic_file.h"
+
 #include <csignal>
 
 namespace brume::app
@@ -14,8 +16,14 @@ volatile std::sig_atomic_t interrupted = 0;
 
 extern "C" void note_interruption(int signal)
 {
+  if (interrupted)
+  {
+    remove_temporary_files();
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+    return;
+  }
   interrupted = 1;
-  std::signal(signal, SIG_DFL);
 }
 
 }
@@ -23,14 +31,15 @@ extern "C" void note_interruption(int signal)
 InterruptionWatch::InterruptionWatch()
 {
   interrupted = 0;
-  std::signal(SIGINT, note_interruption);
-  std::signal(SIGTERM, note_interruption);
+  this->FormerInterrupt = std::signal(SIGINT, note_interruption);
+  this->FormerTerminate = std::signal(SIGTERM, note_interruption);
 }
 
 InterruptionWatch::~InterruptionWatch()
 {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  std::signal(SIGINT, this->FormerInterrupt);
+  std::signal(SIGTERM, this->FormerTerminate);
+  interrupted = 0;
 }
 
 bool InterruptionWatch::requested()

@@ -2,6 +2,7 @@
 
 #include "vtkVersion.h"
 
+#include <sys/resource.h>
 #include <sys/utsname.h>
 
 #include <ctime>
@@ -31,6 +32,8 @@ std::string value_in_file(const char* path, const std::string& key)
   return {};
 }
 
+}
+
 std::string shell_word(const std::string& word)
 {
   const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
@@ -46,6 +49,11 @@ std::string shell_word(const std::string& word)
   return result + "'";
 }
 
+std::int64_t peak_memory_bytes()
+{
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return std::int64_t{ usage.ru_maxrss } * 1024; // Linux counts in KiB
 }
 
 Machine this_machine(int threads, const std::string& simd)

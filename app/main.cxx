@@ -1,12 +1,30 @@
 // The program `brume`: reads the command line, runs one subcommand, turns failures into one line
 // on standard error and an exit status.
+#include "call_error.h"
 #include "command.h"
+#include "help_text.h"
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <exception>
 #include <iostream>
+#include <memory>
 #include <new>
+#include <string>
+
+namespace
+{
+
+/// One line on standard error: names of files may hold anything, line ends and escapes too.
+void tell(std::string message)
+{
+  std::replace_if(
+    message.begin(), message.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+  std::cerr << "brume: " << message << '\n';
+}
+
+}
 
 int main(int argc, char** argv)
 {
@@ -16,7 +34,8 @@ int main(int argc, char** argv)
   program.name("brume");
   program.set_version_flag("--version", "brume " BRUME_VERSION);
   program.require_subcommand(1);
-  program.get_formatter()->column_width(38);
+  program.formatter(std::make_shared<HelpText>()); // before the subcommands, which inherit it
+  program.footer("brume SUBCOMMAND --help tells its options.");
   add_compare(program);
   add_info(program);
   add_render(program);
@@ -24,6 +43,10 @@ int main(int argc, char** argv)
   try
   {
     program.parse(argc, argv);
+    if (!std::cout.flush())
+    {
+      throw Failure("standard output", "it cannot be written", "free some space, or write elsewhere");
+    }
     return Success;
   }
   catch (const CLI::CallForHelp& help)
@@ -36,22 +59,22 @@ int main(int argc, char** argv)
   }
   catch (const CLI::ParseError& error)
   {
-    std::cerr << "brume: " << error.what() << ": see brume --help\n";
+    tell(describe_call_error(program, error));
     return BadCall;
   }
   catch (const Failure& failure)
   {
-    std::cerr << "brume: " << failure.what() << '\n';
+    tell(failure.what());
     return failure.Status;
   }
   catch (const std::bad_alloc&)
   {
-    std::cerr << "brume: out of memory: close other programs or take a smaller volume\n";
+    tell("memory: there is not enough: close other programs or take a smaller volume");
     return Failed;
   }
   catch (const std::exception& error)
   {
-    std::cerr << "brume: " << error.what() << '\n';
+    tell(error.what());
     return Failed;
   }
 }

@@ -21,7 +21,7 @@ std::string list_mapper_names()
   std::string list;
   for (const MapperName& mapper : mapper_names())
   {
-    list += (list.empty() ? "" : ",") + std::string(mapper.name);
+    list += (list.empty() ? "" : ", ") + std::string(mapper.name);
   }
   return list;
 }

@@ -1,7 +1,10 @@
 // brume render: one picture of one volume.
 #include "command.h"
 #include "interruption.h"
+#include "machine.h"
 #include "mapper_names.h"
+#include "output_check.h"
+#include "presets.h"
 #include "private_display.h"
 #include "progress.h"
 #include "scene_options.h"
@@ -21,10 +24,12 @@
 #include "vtkLightCollection.h"
 #include "vtkNew.h"
 #include "vtkVolume.h"
+#include "vtkVolumeProperty.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -101,6 +106,12 @@ Drawn draw_ray_march(const VolumeScene& scene)
   return drawn;
 }
 
+/// An effect as the statistics name it. How far VTK's mappers are off is not known beforehand.
+nlohmann::json effect(const char* name, bool on, const char* reason)
+{
+  return { { "name", name }, { "on", on }, { "reason", reason }, { "error_bound", nullptr } };
+}
+
 Drawn draw_stock(const VolumeScene& scene, const MapperName& mapper)
 {
   const PrivateDisplay display;
@@ -114,13 +125,31 @@ Drawn draw_stock(const VolumeScene& scene, const MapperName& mapper)
   vtkBrumeVolumeMapper::ResetClippingRange(scene.volume, scene.camera);
   StockRenderer renderer(scene, mapper.kind, step);
   Drawn drawn;
+  // The first render also builds tables and uploads textures.
+  const double first = renderer.render();
+  const double seconds = renderer.render();
+  const bool shaded = scene.volume->GetProperty()->GetShade() != 0;
+  const nlohmann::json not_told = nullptr; // VTK's mappers do not count these
   nlohmann::json statistics;
   statistics["mapper"] = mapper.name;
-  statistics["seconds"] = renderer.render();
+  statistics["seconds"] = seconds;
+  statistics["seconds_prepare"] = std::max(0.0, first - seconds);
+  statistics["samples"] = not_told;
+  statistics["rays"] = not_told;
+  statistics["threads"] = renderer.threads();
+  statistics["simd"] = not_told;
+  statistics["effects"] = { effect("absorption", true, "VTK's composite mode"),
+    effect("emission", true, "VTK's composite mode"),
+    effect("scattering", false, "VTK's composite mode has none"),
+    effect("gradient shading", shaded,
+      shaded ? "vtkVolumeProperty::Shade is on; not a physical term"
+             : "vtkVolumeProperty::Shade is off") };
+  statistics["non_finite_voxels"] = not_told;
   statistics["step"] = step;
   statistics["step_chosen_by"] = scene.options.sample_distance ? "caller" : "half a voxel";
   statistics["device"] = renderer.device();
   statistics["radiometric"] = false;
+  statistics["peak_memory_bytes"] = peak_memory_bytes();
   drawn.statistics = statistics.dump(2);
   drawn.film = renderer.film();
   return drawn;
@@ -128,15 +157,28 @@ Drawn draw_stock(const VolumeScene& scene, const MapperName& mapper)
 
 void run(const Options& options)
 {
-  check_picture_path(options.output);
+  try
+  {
+    check_picture_path(options.output);
+  }
+  catch (const std::runtime_error& error)
+  {
+    throw Failure(error.what(), BadCall);
+  }
   const MapperName& mapper = find_mapper(options.mapper, "--mapper");
+  if (!options.scene.preset.empty())
+  {
+    find_preset(options.scene.preset);
+  }
+  check_output(options.output, options.scene.input);
+  check_output(options.stats, options.scene.input, { options.output });
   const InterruptionWatch watch;
   const VolumeScene scene = make_volume_scene(options.scene);
   const Drawn drawn =
     mapper.kind == MapperKind::RayMarch ? draw_ray_march(scene) : draw_stock(scene, mapper);
   InterruptionWatch::check(options.scene.input.c_str());
 
-  const nlohmann::json statistics = nlohmann::json::parse(drawn.statistics);
+  nlohmann::json statistics = nlohmann::json::parse(drawn.statistics);
   if (options.output.size() > 4 &&
     CLI::detail::to_lower(options.output.substr(options.output.size() - 4)) == ".exr")
   {
@@ -154,7 +196,8 @@ void run(const Options& options)
   }
   if (!options.scene.quiet)
   {
-    const std::size_t voxels = statistics.value("non_finite_voxels", std::size_t{ 0 });
+    const nlohmann::json& count = statistics["non_finite_voxels"];
+    const std::size_t voxels = count.is_null() ? 0 : count.get<std::size_t>();
     if (voxels > 0)
     {
       std::cerr << "brume: " << options.scene.input << ": " << voxels
@@ -196,6 +239,7 @@ void add_render(CLI::App& program)
     ->type_name("FILE");
   command->get_option("--sample-distance")
     ->description("Fixed distance between samples, in world units [chosen by the tolerance]");
+  command->footer("Example: brume render scan.nii.gz --output scan.png --preset ct-bone");
   command->callback([options] { run(*options); });
 }
 

@@ -1,7 +1,7 @@
 // The table of samples: volumes that are made on the spot.
 #include "input.h"
 
-#include "command.h"
+#include "interruption.h"
 
 #include "vtkBrumeCloudSource.h"
 #include "vtkBrumePhantomSource.h"
@@ -30,6 +30,10 @@ vtkSmartPointer<vtkImageData> run(
       if (report)
       {
         report(static_cast<vtkAlgorithm*>(caller)->GetProgress());
+      }
+      if (InterruptionWatch::requested())
+      {
+        static_cast<vtkAlgorithm*>(caller)->AbortExecuteOn();
       }
     });
   source->AddObserver(vtkCommand::ProgressEvent, observer);

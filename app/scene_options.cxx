@@ -1,5 +1,7 @@
 #include "scene_options.h"
 
+#include "input.h"
+#include "option_checks.h"
 #include "presets.h"
 
 #include <CLI/CLI.hpp>
@@ -11,23 +13,6 @@ namespace brume::app
 
 namespace
 {
-
-/// A check that CLI11 runs on each number of an option, with its own words.
-CLI::Validator number(const std::string& what, bool (*good)(double))
-{
-  return CLI::Validator(
-    [what, good](std::string& text) -> std::string
-    {
-      char* end = nullptr;
-      const double value = std::strtod(text.c_str(), &end);
-      if (end == text.c_str() || *end != '\0' || !std::isfinite(value) || !good(value))
-      {
-        return "'" + text + "' is not " + what;
-      }
-      return {};
-    },
-    "");
-}
 
 const CLI::Validator& any()
 {
@@ -54,10 +39,24 @@ std::string preset_names()
 
 }
 
+void add_input(CLI::App& command, std::string& input)
+{
+  std::string names;
+  for (const Sample& sample : samples())
+  {
+    names += (names.empty() ? "sample:" : ", sample:") + std::string(sample.name);
+  }
+  command
+    .add_option("INPUT", input,
+      "A file (.nii, .nii.gz, .mha, .mhd, .nrrd, .nhdr, .vti, .vtk), or a volume made on the spot (" +
+        names + ")")
+    ->required();
+}
+
 void add_scene_options(CLI::App& command, SceneOptions& o, const std::string& shade)
 {
   o.shade = shade;
-  command.add_option("INPUT", o.input, "A file, or sample:NAME")->required();
+  add_input(command, o.input);
 
   const char* camera = "Camera";
   const char* look = "Look";
@@ -70,14 +69,14 @@ void add_scene_options(CLI::App& command, SceneOptions& o, const std::string& sh
     ->group(camera);
   command
     .add_option("--camera-position", o.camera_position,
-      "Where the eye is, in world units [so that the whole volume is seen]")
+      "Where the eye is, in world units [so that all that can be seen is in the picture]")
     ->delimiter(',')
     ->type_name("X,Y,Z")
     ->check(any())
     ->group(camera);
   command
     .add_option("--camera-focal-point", o.camera_focal_point,
-      "What it looks at, in world units [the volume's centre]")
+      "What it looks at, in world units [the middle of what can be seen]")
     ->delimiter(',')
     ->type_name("X,Y,Z")
     ->check(any())
@@ -102,7 +101,7 @@ void add_scene_options(CLI::App& command, SceneOptions& o, const std::string& sh
     ->check(positive())
     ->group(camera);
 
-  command.add_option("--background", o.background, "Colour behind the volume, linear [0,0,0]")
+  command.add_option("--background", o.background, "Colour behind the volume, linear, 1 is white [0,0,0]")
     ->delimiter(',')
     ->type_name("R,G,B")
     ->check(number("a number of 0 or more", [](double v) { return v >= 0.0; }))
@@ -120,15 +119,15 @@ void add_scene_options(CLI::App& command, SceneOptions& o, const std::string& sh
     ->group(look);
   command
     .add_option("--shade", o.shade,
-      "Light the volume like a surface by its gradient: on, off, or preset, as the preset has it [" +
+      "Light the volume like a surface by its gradient: on, off, or preset (as the preset has it) [" +
         shade + "]")
     ->type_name("WHEN")
-    ->check(CLI::IsMember({ "on", "off", "preset" }))
+    ->check(one_of({ "on", "off", "preset" }))
     ->group(look);
   command
     .add_option("--interpolation", o.interpolation, "Between voxels: linear or nearest [linear]")
     ->type_name("HOW")
-    ->check(CLI::IsMember({ "linear", "nearest" }))
+    ->check(one_of({ "linear", "nearest" }))
     ->group(look);
 
   command

@@ -36,6 +36,9 @@ struct SceneOptions
   bool verbose = false;
 };
 
+/// Declares INPUT on a subcommand; it is read into `input`, which must outlive the parse.
+void add_input(CLI::App& command, std::string& input);
+
 /// Declares INPUT and the scene options on a subcommand; they are read into `options`, which must
 /// outlive the parse. `shade` is the subcommand's default for --shade.
 void add_scene_options(CLI::App& command, SceneOptions& options, const std::string& shade);

@@ -1,6 +1,7 @@
 #include "stock_renderer.h"
 
 #include "command.h"
+#include "interruption.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
@@ -78,6 +79,13 @@ struct StockRenderer::Internals
         {
           self->Seconds = std::chrono::duration<double>(Clock::now() - self->Start).count();
         }
+        else if (event == vtkCommand::AbortCheckEvent)
+        {
+          if (InterruptionWatch::requested())
+          {
+            self->Window->SetAbortRender(1);
+          }
+        }
         else if (self->Error.empty())
         {
           self->Error = text ? static_cast<const char*>(text) : "unknown error";
@@ -85,6 +93,7 @@ struct StockRenderer::Internals
         }
       });
     object->AddObserver(vtkCommand::ErrorEvent, observer);
+    object->AddObserver(vtkCommand::AbortCheckEvent, observer);
     object->AddObserver(vtkCommand::VolumeMapperRenderStartEvent, observer);
     object->AddObserver(vtkCommand::VolumeMapperRenderEndEvent, observer);
   }
@@ -146,6 +155,7 @@ double StockRenderer::render()
   Internals& in = *this->Internal;
   const auto start = Internals::Clock::now();
   in.Window->Render();
+  InterruptionWatch::check(in.Scene->options.input.c_str());
   if (in.Kind == MapperKind::Gpu)
   {
     in.Window->WaitForCompletion();
@@ -240,6 +250,11 @@ Film StockRenderer::film()
   in.Renderer->SetBackground(background);
   in.Window->Render();
   return film;
+}
+
+int StockRenderer::threads() const
+{
+  return this->Internal->FixedPoint ? this->Internal->FixedPoint->GetNumberOfThreads() : 1;
 }
 
 std::string StockRenderer::device()

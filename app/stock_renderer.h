@@ -33,6 +33,8 @@ public:
   Film film();
   /// The frame as the window shows it, 8 bits.
   Picture frame();
+  /// Threads of the CPU mapper; 1 for the GPU mapper, which is driven by one.
+  int threads() const;
   /// Name of the OpenGL device.
   std::string device();
 

@@ -1,6 +1,7 @@
 #include "volume_scene.h"
 
 #include "command.h"
+#include "interruption.h"
 #include "presets.h"
 
 #include "Transport/bricks.h"
@@ -211,6 +212,7 @@ VolumeScene make_volume_scene(const SceneOptions& options)
     }
   }
 
+  InterruptionWatch::check(options.input.c_str());
   vtkNew<vtkVolumeProperty> property;
   apply(*scene.preset, image, property);
   if (options.opacity_unit_distance)
@@ -227,13 +229,14 @@ VolumeScene make_volume_scene(const SceneOptions& options)
   scene.voxel_edge = smallest_edge(image);
   scene.volume = vtkSmartPointer<vtkVolume>::New();
   scene.volume->SetProperty(property);
-  
+
   vtkNew<vtkLight> light;
   light->SetLightTypeToHeadlight();
   // VTK's CPU mapper takes ambient light from the lights, its GPU mapper does not: white serves both.
   light->SetAmbientColor(1.0, 1.0, 1.0);
   scene.lights = vtkSmartPointer<vtkLightCollection>::New();
   scene.lights->AddItem(light);
+  InterruptionWatch::check(options.input.c_str());
   scene.camera = make_camera(scene);
   return scene;
 }

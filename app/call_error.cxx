@@ -1,0 +1,141 @@
+#include "call_error.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <vector>
+
+namespace brume::app
+{
+
+namespace
+{
+
+/// Not endless: what the user wrote may hold anything.
+std::string shortened(std::string text)
+{
+  if (text.size() > 300)
+  {
+    text = text.substr(0, 300) + "…";
+  }
+  return text;
+}
+
+/// The subcommand that was called, or the program itself.
+const CLI::App& called(const CLI::App& program)
+{
+  const std::vector<CLI::App*> subcommands = program.get_subcommands();
+  return subcommands.empty() ? program : *subcommands.front();
+}
+
+/// The first argument that belongs to nothing, an option before anything else. Empty when there is
+/// none. A parse that fails may leave words in the program or in its subcommand.
+std::string unknown_argument(const CLI::App& program)
+{
+  std::vector<std::string> rest = called(program).remaining();
+  for (const std::string& word : program.remaining())
+  {
+    rest.push_back(word);
+  }
+  const auto option = std::find_if(rest.begin(), rest.end(),
+    [](const std::string& word) { return word.size() > 1 && word[0] == '-' && word != "--"; });
+  if (option != rest.end())
+  {
+    return *option;
+  }
+  return rest.empty() ? "" : rest.front();
+}
+
+std::string unknown(const CLI::App& program, const std::string& word)
+{
+  const bool option = word[0] == '-';
+  if (&called(program) == &program && !option)
+  {
+    return word + ": there is no such subcommand";
+  }
+  return word + (option ? ": there is no such option" : ": one argument too many");
+}
+
+/// What stands before ": " in a message of CLI11, an option's name in most.
+std::string option_name(const std::string& message)
+{
+  return message.substr(0, std::min(message.find_first_of(": "), message.size()));
+}
+
+/// The option's values as --help shows them, such as "W,H"; empty when the option is not known.
+std::string values_of(const CLI::App& app, const std::string& name)
+{
+  const CLI::Option* option = app.get_option_no_throw(name);
+  return option ? option->get_type_name() : "";
+}
+
+std::string mismatch(const CLI::App& app, const std::string& message)
+{
+  const std::string name = option_name(message);
+  const CLI::Option* option = app.get_option_no_throw(name);
+  if (!option)
+  {
+    return message;
+  }
+  const std::string values = values_of(app, name);
+  if (option->get_items_expected_max() <= 1)
+  {
+    return name + (option->count() > 1 ? ": it is given more than once"
+                                       : ": its value is missing: give it as " + name + " " + values);
+  }
+  return name + ": it takes " + values + ", separated by commas, and once";
+}
+
+std::string what_is_wrong(const CLI::App& program, const CLI::ParseError& error)
+{
+  const CLI::App& app = called(program);
+  const std::string message = error.what();
+  const std::string word = unknown_argument(program);
+  if (dynamic_cast<const CLI::RequiredError*>(&error))
+  {
+    // A misspelt option is a better explanation of a missing one.
+    if (!word.empty())
+    {
+      return unknown(program, word);
+    }
+    return &app == &program ? "SUBCOMMAND: it is missing"
+                            : option_name(message) + ": it is missing";
+  }
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) && !word.empty())
+  {
+    return unknown(program, word);
+  }
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error))
+  {
+    return mismatch(app, message);
+  }
+  if (dynamic_cast<const CLI::ExcludesError*>(&error))
+  {
+    return option_name(message) + ": it excludes " + message.substr(message.rfind(' ') + 1);
+  }
+  if (dynamic_cast<const CLI::ConversionError*>(&error))
+  {
+    // "Could not convert: NAME = VALUE"
+    const std::string key = "Could not convert: ";
+    if (message.compare(0, key.size(), key) == 0)
+    {
+      const std::string rest = message.substr(key.size());
+      const std::size_t equal = rest.find(" = ");
+      return rest.substr(0, equal) + ": '" +
+        (equal == std::string::npos ? "" : rest.substr(equal + 3)) + "' is not what it takes";
+    }
+  }
+  return message;
+}
+
+}
+
+std::string describe_call_error(const CLI::App& program, const CLI::ParseError& error)
+{
+  const CLI::App& app = called(program);
+  const std::string help =
+    &app == &program ? "brume --help" : "brume " + app.get_name() + " --help";
+  return shortened(what_is_wrong(program, error)) + ": see " + help;
+}
+
+}
