@@ -36,7 +36,16 @@ int main(int argc, char** argv)
   }
   catch (const CLI::ParseError& error)
   {
-    std::cerr << "brume: " << error.what() << ": see brume --help\n";
+    const auto unknown = program.remaining();
+    if (program.get_subcommands().empty() && !unknown.empty())
+    {
+      std::cerr << "brume: " << unknown.front() << ": no such subcommand or option";
+    }
+    else
+    {
+      std::cerr << "brume: " << error.what();
+    }
+    std::cerr << ": see brume --help\n";
     return BadCall;
   }
   catch (const Failure& failure)
