@@ -125,7 +125,7 @@ SceneDescription describe(const VolumeScene& scene, double step)
   SceneDescription d;
   const std::string& unit = scene.input.length_unit;
   vtkVolumeProperty* property = scene.volume->GetProperty();
-  d.input = scene.options.input;
+  d.input = scene.input.name;
   scene.input.image->GetDimensions(d.dimensions.data());
   scene.input.image->GetSpacing(d.spacing.data());
   d.unit = unit;

@@ -8,7 +8,7 @@ namespace brume::app
 const std::vector<MapperName>& mapper_names()
 {
   static const std::vector<MapperName> names{
-    { MapperKind::RayMarch, "raymarch", "Brume, ray march", "vtkBrumeRayMarchMapper" },
+    { MapperKind::RayMarch, "raymarch", "Brume's ray march", "vtkBrumeRayMarchMapper" },
     { MapperKind::FixedPoint, "vtk-fixed-point", "VTK on the CPU",
       "vtkFixedPointVolumeRayCastMapper" },
     { MapperKind::Gpu, "vtk-gpu", "VTK on the GPU", "vtkOpenGLGPUVolumeRayCastMapper" },

@@ -3,7 +3,11 @@
 #include "command.h"
 #include "presets.h"
 
-#include "vtkBrumeVolumeMapper.h"
+#include "Transport/bricks.h"
+#include "Transport/lookup_table.h"
+#include "Transport/scene.h"
+
+#include "vtkBrumeRayMarchMapper.h"
 
 #include "vtkCamera.h"
 #include "vtkImageData.h"
@@ -13,6 +17,10 @@
 #include "vtkNew.h"
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -27,58 +35,120 @@ namespace
 /// How much of the picture the volume's box may fill when the camera is placed by itself.
 constexpr double fill = 0.96;
 
-/// Places the camera so that the eight corners of the image are within the picture.
-void fit_camera(vtkImageData* image, vtkCamera* camera, double aspect, const double toward_eye[3],
-  const double view_up[3])
+/// The corners, in the world, of each brick of the volume that can be seen with its transfer
+/// functions; of the whole volume where none can.
+std::vector<glm::dvec3> visible_corners(const VolumeScene& scene)
 {
-  double corners[8][3];
-  double centre[3] = { 0, 0, 0 };
-  int extent[6];
-  image->GetExtent(extent);
-  for (int corner = 0; corner < 8; ++corner)
+  vtkNew<vtkBrumeRayMarchMapper> mapper;
+  mapper->SetInputData(scene.input.image);
+  scene.volume->SetMapper(mapper);
+  vtkNew<vtkCamera> camera;
+  const brume::Scene* plain =
+    mapper->UpdateScene(scene.volume, camera, scene.lights, scene.width(), scene.height());
+  scene.volume->SetMapper(nullptr);
+  if (!plain)
   {
-    const int i = extent[corner & 1];
-    const int j = extent[2 + ((corner >> 1) & 1)];
-    const int k = extent[4 + ((corner >> 2) & 1)];
-    image->TransformIndexToPhysicalPoint(i, j, k, corners[corner]);
-    for (int axis = 0; axis < 3; ++axis)
+    throw Failure(scene.options.input, "it cannot be drawn", "see brume info");
+  }
+  const BrickRanges& ranges = *plain->ranges;
+  const LookupTable table = make_lookup_table(plain->classification, 1.0);
+  const VisibleBricks bricks = find_visible_bricks(
+    ranges, [&](float lower, float upper) { return table.can_show(lower, upper); });
+  std::vector<glm::dvec3> corners;
+  const auto add_box = [&](const glm::dvec3& lower, const glm::dvec3& upper)
+  {
+    for (int corner = 0; corner < 8; ++corner)
     {
-      centre[axis] += corners[corner][axis] / 8.0;
+      glm::dvec4 place(lower, 1.0);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        place[axis] = (corner >> axis) & 1 ? upper[axis] : lower[axis];
+      }
+      corners.push_back(glm::dvec3(plain->data_from_index * place));
+    }
+  };
+  const glm::dvec3 last(plain->grid.upper(0), plain->grid.upper(1), plain->grid.upper(2));
+  std::size_t index = 0;
+  for (int z = 0; z < bricks.dims[2]; ++z)
+  {
+    for (int y = 0; y < bricks.dims[1]; ++y)
+    {
+      for (int x = 0; x < bricks.dims[0]; ++x, ++index)
+      {
+        if (bricks.distance[index] == 0)
+        {
+          const glm::dvec3 lower = double(BrickRanges::edge) * glm::dvec3(x, y, z);
+          add_box(lower, glm::min(lower + double(BrickRanges::edge), last));
+        }
+      }
     }
   }
-  double back[3] = { toward_eye[0], toward_eye[1], toward_eye[2] };
-  double right[3];
-  double up[3];
-  vtkMath::Normalize(back);
-  vtkMath::Cross(view_up, back, right);
-  vtkMath::Normalize(right);
-  vtkMath::Cross(back, right, up);
+  if (corners.empty())
+  {
+    add_box(glm::dvec3(0.0), last);
+  }
+  return corners;
+}
+
+glm::dvec3 to_glm(const double v[3])
+{
+  return { v[0], v[1], v[2] };
+}
+
+void check_view_up(const glm::dvec3& view_up, const glm::dvec3& line_of_sight)
+{
+  if (!(glm::length(glm::cross(view_up, line_of_sight)) > 1e-6 * glm::length(view_up)))
+  {
+    throw Failure("--camera-view-up", "up is along the line of sight",
+      "give another direction, such as 0,1,0", BadCall);
+  }
+}
+
+/// Places the camera so that all points are within the picture, their box in its middle.
+void fit_camera(const std::vector<glm::dvec3>& points, vtkCamera* camera, double aspect,
+  glm::dvec3 toward_eye, const glm::dvec3& view_up)
+{
+  toward_eye = glm::normalize(toward_eye);
+  check_view_up(view_up, toward_eye);
+  const glm::dvec3 right = glm::normalize(glm::cross(view_up, toward_eye));
+  const glm::dvec3 up = glm::cross(toward_eye, right);
+  const glm::dmat3 world_from_view(right, up, toward_eye);
+  glm::dvec3 lower(VTK_DOUBLE_MAX);
+  glm::dvec3 upper(-VTK_DOUBLE_MAX);
+  for (const glm::dvec3& point : points)
+  {
+    const glm::dvec3 view = point * world_from_view;
+    lower = glm::min(lower, view);
+    upper = glm::max(upper, view);
+  }
+  const glm::dvec3 centre = 0.5 * (lower + upper);
   const double tangent =
     std::tan(vtkMath::RadiansFromDegrees(0.5 * camera->GetViewAngle())) * fill;
   double distance = 0.0;
-  for (const auto& corner : corners)
+  for (const glm::dvec3& point : points)
   {
-    double d[3];
-    vtkMath::Subtract(corner, centre, d);
-    const double high = std::abs(vtkMath::Dot(d, up));
-    const double wide = std::abs(vtkMath::Dot(d, right)) / aspect;
-    distance = std::max(distance, vtkMath::Dot(d, back) + std::max(high, wide) / tangent);
+    const glm::dvec3 view = point * world_from_view - centre;
+    const double half = std::max(std::abs(view.y), std::abs(view.x) / aspect);
+    distance = std::max(distance, view.z + half / tangent);
   }
-  camera->SetFocalPoint(centre);
-  camera->SetPosition(centre[0] + back[0] * distance, centre[1] + back[1] * distance,
-    centre[2] + back[2] * distance);
-  camera->SetViewUp(view_up);
+  const glm::dvec3 focal = world_from_view * centre;
+  const glm::dvec3 position = focal + toward_eye * distance;
+  camera->SetFocalPoint(focal.x, focal.y, focal.z);
+  camera->SetPosition(position.x, position.y, position.z);
+  camera->SetViewUp(view_up.x, view_up.y, view_up.z);
 }
 
-vtkSmartPointer<vtkCamera> make_camera(const SceneOptions& options, const Input& input)
+vtkSmartPointer<vtkCamera> make_camera(const VolumeScene& scene)
 {
+  const SceneOptions& options = scene.options;
   auto camera = vtkSmartPointer<vtkCamera>::New();
   camera->SetViewAngle(options.camera_view_angle);
   const double aspect = double(options.resolution[0]) / options.resolution[1];
-  const double patient[3] = { -0.45, 0.85, 0.35 };
-  const double thing[3] = { 0.45, -0.85, 0.3 };
+  const glm::dvec3 patient(-0.45, 0.85, 0.25);
+  const glm::dvec3 thing(0.45, -0.85, 0.25);
   const std::array<double, 3> up = options.camera_view_up.value_or(std::array<double, 3>{ 0, 0, 1 });
-  fit_camera(input.image, camera, aspect, input.patient_axes ? patient : thing, up.data());
+  fit_camera(visible_corners(scene), camera, aspect,
+    scene.input.patient_axes ? patient : thing, glm::dvec3(up[0], up[1], up[2]));
   if (options.camera_focal_point)
   {
     camera->SetFocalPoint(options.camera_focal_point->data());
@@ -93,15 +163,7 @@ vtkSmartPointer<vtkCamera> make_camera(const SceneOptions& options, const Input&
     throw Failure("--camera-position", "the eye is at the focal point",
       "move one of them: --camera-focal-point", BadCall);
   }
-  double along[3];
-  double cross[3];
-  camera->GetDirectionOfProjection(along);
-  vtkMath::Cross(along, up.data(), cross);
-  if (vtkMath::Norm(cross) < 1e-6 * vtkMath::Norm(up.data()) || vtkMath::Norm(up.data()) == 0.0)
-  {
-    throw Failure("--camera-view-up", "up is along the line of sight",
-      "give another direction, such as 0,1,0", BadCall);
-  }
+  check_view_up(glm::dvec3(up[0], up[1], up[2]), to_glm(camera->GetDirectionOfProjection()));
   if (options.camera_parallel_scale)
   {
     camera->ParallelProjectionOn();
@@ -164,13 +226,14 @@ VolumeScene make_volume_scene(const SceneOptions& options)
   scene.voxel_edge = smallest_edge(image);
   scene.volume = vtkSmartPointer<vtkVolume>::New();
   scene.volume->SetProperty(property);
-  scene.camera = make_camera(options, scene.input);
+  
   vtkNew<vtkLight> light;
   light->SetLightTypeToHeadlight();
   // VTK's CPU mapper takes ambient light from the lights, its GPU mapper does not: white serves both.
   light->SetAmbientColor(1.0, 1.0, 1.0);
   scene.lights = vtkSmartPointer<vtkLightCollection>::New();
   scene.lights->AddItem(light);
+  scene.camera = make_camera(scene);
   return scene;
 }
 

@@ -35,7 +35,7 @@ struct VolumeScene
 
 /// Opens the input, with a progress bar, and settles all that the user left open:
 /// - the preset from the data (choose_preset);
-/// - the camera: the whole volume, for patients from the front, a little from their left and above,
+/// - the camera: all that the transfer functions let be seen, for patients from the front, a little from their left and above,
 ///   with the head up; otherwise from the front (−y), a little from the right and above, with z up.
 /// Remarks (what the reader settled, which preset and why) go to standard error unless --quiet.
 /// Throws Failure: BadCall for an unknown preset or sample, Failed for an input that cannot be read.

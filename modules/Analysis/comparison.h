@@ -35,7 +35,7 @@ struct MatchedSetting
 /// What was drawn.
 struct SceneDescription
 {
-  std::string input; ///< as the user wrote it: a file, a folder, or sample:NAME
+  std::string input; ///< for people: a file's or folder's name, or sample:NAME
   std::array<int, 3> dimensions{ 0, 0, 0 };  ///< voxels; 0 where unknown
   std::array<double, 3> spacing{ 0, 0, 0 };  ///< world units
   std::string unit;   ///< the world unit, e.g. "mm"; empty: "world units"

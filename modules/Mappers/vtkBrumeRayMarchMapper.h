@@ -28,8 +28,8 @@ public:
 
   ///@{
   /**
-   * Whether the step is chosen by the tolerance. On, the default: the longest of 2, 1, ½, ¼ and ⅛
-   * of the smallest voxel edge with which the estimated error is within three quarters of Tolerance;
+   * Whether the step is chosen by the tolerance. On, the default: the longest of 2, 1, ½, … and
+   * 1/32 of the smallest voxel edge with which the estimated error is within three quarters of Tolerance;
    * the choice is made from up to 256 rays of the first picture and kept while data, property and
    * tolerance stay. Off: SampleDistance.
    */

@@ -37,7 +37,7 @@ LookupTable make_lookup_table(const Classification& c, double step)
   table.lower = static_cast<float>(c.lower);
   table.scale = static_cast<float>(LookupTable::intervals / (c.upper - c.lower));
   table.nodes.resize(count);
-  table.nodes_before.assign(count + 1, 0);
+  std::vector<bool> visible(count);
   bool found_empty = false;
   for (int i = 0; i < count; ++i)
   {
@@ -54,13 +54,14 @@ LookupTable make_lookup_table(const Classification& c, double step)
         c.rgb.empty() ? 0.0f : static_cast<float>(interpolate(c.rgb.data() + channel, at, 3));
       table.brightest = std::max(table.brightest, colour[channel]);
     }
-    table.nodes_before[i + 1] = table.nodes_before[i] + (node.optical_depth > 0.0f);
+    visible[i] = node.optical_depth > 0.0f;
     if (!found_empty && node.optical_depth == 0.0f)
     {
       table.empty_value = static_cast<float>(value);
       found_empty = true;
     }
   }
+  table.visible = VisibleValues(c.lower, c.upper, visible);
   if (!found_empty)
   {
     table.empty_value = table.lower;
@@ -88,15 +89,25 @@ LookupTable make_lookup_table(const Classification& c, double step)
   return table;
 }
 
-bool LookupTable::can_show(float lowest, float highest) const
+VisibleValues::VisibleValues(double lower, double upper, const std::vector<bool>& visible)
+  : Lower(lower)
+  , Scale((visible.size() - 1) / (upper - lower))
+  , Before(visible.size() + 1, 0)
 {
-  const auto node_at = [this](float value, bool up)
+  for (std::size_t i = 0; i < visible.size(); ++i)
   {
-    float position = (value - lower) * scale;
-    position = std::min(std::max(position, 0.0f), static_cast<float>(intervals));
-    return static_cast<int>(up ? std::ceil(position) : std::floor(position));
-  };
-  return nodes_before[node_at(highest, true) + 1] > nodes_before[node_at(lowest, false)];
+    this->Before[i + 1] = this->Before[i] + visible[i];
+  }
+}
+
+bool VisibleValues::any(double lowest, double highest) const
+{
+  const double last = static_cast<double>(this->Before.size() - 2);
+  const double from = std::clamp((lowest - this->Lower) * this->Scale, 0.0, last);
+  const double to = std::clamp((highest - this->Lower) * this->Scale, 0.0, last);
+  const auto first = static_cast<std::size_t>(std::floor(from));
+  const auto end = static_cast<std::size_t>(std::ceil(to)) + 1;
+  return this->Before[end] > this->Before[first];
 }
 
 }

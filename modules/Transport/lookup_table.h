@@ -9,6 +9,24 @@
 namespace brume
 {
 
+/// Which values can be seen, answered for whole ranges in constant time.
+class VisibleValues
+{
+public:
+  VisibleValues() = default;
+  /// `visible[i]` tells of the i-th of at least two nodes at even distances over [lower, upper];
+  /// between two nodes a value can be seen when it can at either. Values outside are as the ends.
+  VisibleValues(double lower, double upper, const std::vector<bool>& visible);
+
+  /// Whether any value in [lowest, highest] can be seen.
+  bool any(double lowest, double highest) const;
+
+private:
+  double Lower = 0.0;
+  double Scale = 1.0;
+  std::vector<int> Before; ///< how many of the nodes before each can be seen
+};
+
 /// A node: source colour and the optical depth of one whole step of the march.
 struct LookupNode
 {
@@ -40,11 +58,9 @@ struct LookupTable
   std::vector<float> gradient_factor;
   float gradient_table_scale = 1.0f;
 
-  /// Whether any value in [lowest, highest] has an optical depth. Constant time.
-  bool can_show(float lowest, float highest) const;
-
-  /// nodes_before[i] = how many of the nodes before i have an optical depth.
-  std::vector<int> nodes_before;
+  /// Whether any value in [lowest, highest] has an optical depth.
+  bool can_show(float lowest, float highest) const { return this->visible.any(lowest, highest); }
+  VisibleValues visible;
 };
 
 /// Builds the table for steps of the length `step`, in the data's units. Throws

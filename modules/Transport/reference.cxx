@@ -128,7 +128,7 @@ RayResult integrate_cells(
   while (walk.next(from, to))
   {
     const double width = (to - from) / pieces;
-    if (!(width > 0.0))
+    if (!(width > 0.0) || !medium.visible(segment.begin + along * (0.5 * (from + to))))
     {
       continue;
     }
@@ -167,7 +167,11 @@ RayResult integrate_fixed(const ReferenceMedium<T>& medium, const RaySegment& se
       length = std::min(step, segment.length - at);
       at += 0.5 * length;
     }
-    result.pass(medium.at(segment.begin + along * at, along), length, at);
+    const glm::dvec3 place = segment.begin + along * at;
+    if (medium.visible(place))
+    {
+      result.pass(medium.at(place, along), length, at);
+    }
   }
   return result;
 }

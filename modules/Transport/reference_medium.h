@@ -1,6 +1,7 @@
 // Optical properties of a scene at a place, in double precision. Internal to Transport.
 #pragma once
 
+#include "Transport/bricks.h"
 #include "Transport/lookup_table.h"
 #include "Transport/optics.h"
 #include "Transport/shading.h"
@@ -44,9 +45,23 @@ public:
         this->Extinction.push_back(extinction_from_opacity(opacity, c.unit_distance));
       }
     }
+    this->find_visible();
     const glm::dmat4 world_from_index = scene.world_from_data * scene.data_from_index;
     this->WorldFromIndex = world_from_index;
     this->WorldFromGradient = glm::transpose(glm::inverse(glm::dmat3(world_from_index)));
+  }
+
+  /// Whether anything can be seen in the brick that holds the place. Only a way to save time: what
+  /// cannot be seen has no extinction.
+  bool visible(const glm::dvec3& place) const
+  {
+    std::size_t index = 0;
+    for (int axis = 2; axis >= 0; --axis)
+    {
+      const int brick = static_cast<int>(std::max(place[axis], 0.0)) / BrickRanges::edge;
+      index = index * this->Bricks.dims[axis] + std::min(brick, this->Bricks.dims[axis] - 1);
+    }
+    return this->Bricks.distance[index] == 0;
   }
 
   /// `along` is the ray's direction in index space.
@@ -90,6 +105,22 @@ public:
   }
 
 private:
+  void find_visible()
+  {
+    const Scene& scene = this->TheScene;
+    std::vector<bool> seen;
+    for (double extinction : this->Extinction)
+    {
+      seen.push_back(extinction > 0.0);
+    }
+    const VisibleValues values = seen.empty()
+      ? VisibleValues()
+      : VisibleValues(scene.classification.lower, scene.classification.upper, seen);
+    this->Bricks =
+      find_visible_bricks(scene.ranges ? *scene.ranges : measure_bricks(scene.grid),
+        [&](float lower, float upper) { return seen.empty() ? upper > 0.0f : values.any(lower, upper); });
+  }
+
   double voxel(int i, int j, int k, int component) const
   {
     const Grid& grid = this->TheScene.grid;
@@ -207,6 +238,7 @@ private:
   bool NeedsGradient;
   double EmptyValue = 0.0;
   std::vector<double> Extinction; ///< at the nodes of the opacity
+  VisibleBricks Bricks;
   glm::dmat4 WorldFromIndex{ 1.0 };
   glm::dmat3 WorldFromGradient{ 1.0 };
 };

@@ -25,15 +25,17 @@ StepChoice choose_step(const Scene& scene, int width, int height, double toleran
   const int probes_x = std::min(16, width);
   const int probes_y = std::min(16, height);
 
+  // Rays end where what is behind cannot matter to the estimate.
+  const double leave_below = std::min(0.01 * tolerance, 1e-4);
   StepChoice choice;
   choice.step = 2.0 * smallest_voxel_edge(scene);
   Film longer(probes_x, probes_y);
   Film shorter(probes_x, probes_y);
-  render_fixed_step(probe, choice.step, SamplePlacement::Middle, 0.0, 0, longer);
-  constexpr int halvings = 4;
+  render_fixed_step(probe, choice.step, SamplePlacement::Middle, leave_below, 0, longer);
+  constexpr int halvings = 6;
   for (int i = 0;; ++i)
   {
-    render_fixed_step(probe, 0.5 * choice.step, SamplePlacement::Middle, 0.0, 0, shorter);
+    render_fixed_step(probe, 0.5 * choice.step, SamplePlacement::Middle, leave_below, 0, shorter);
     double change = 0.0;
     for (std::size_t pixel = 0; pixel < longer.size(); ++pixel)
     {

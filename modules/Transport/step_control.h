@@ -14,8 +14,8 @@ struct StepChoice
   bool met = false;             ///< whether the estimate is within the tolerance asked for
 };
 
-/// The longest of 2, 1, ½, ¼ and ⅛ of the smallest voxel edge with which the picture's largest
-/// error is expected to be within `tolerance` (a fraction of white, > 0); ⅛ where none is.
+/// The longest of 2, 1, ½, … and 1/32 of the smallest voxel edge with which the picture's largest
+/// error is expected to be within `tolerance` (a fraction of white, > 0); 1/32 where none is.
 ///
 /// The expectation is measured: up to 256 rays spread over the picture of `width` × `height` pixels
 /// are integrated in double precision with each step and with half of it. The midpoint rule's error
