@@ -197,6 +197,7 @@ std::string SceneFromVTK::UpdateGrid(vtkVolumeMapper* mapper, vtkVolumeProperty*
     return {};
   }
 
+  this->LastData = DataKey{}; // until all is done: memory may run out on the way
   bool converts = false;
   grid.type = voxel_type(scalars->GetDataType(), converts);
   grid.components = components;

@@ -130,6 +130,11 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& scene, brume::Film& film)
   const brume::MarchStatistics march = this->Internal->Marcher.render(
     scene, settings, film, [this](double fraction) { return this->ReportProgress(fraction); });
 
+  if (march.rays == 0)
+  {
+    this->Internal->LastStep = Internals::StepKey{ 0, 0, false, -1.0 }; // nothing was measured
+  }
+
   nlohmann::json statistics;
   statistics["mapper"] = "raymarch";
   statistics["seconds"] = march.seconds;

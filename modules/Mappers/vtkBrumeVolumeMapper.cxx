@@ -31,7 +31,6 @@ struct vtkBrumeVolumeMapper::Internals
   vtkNew<vtkBrumeFilmBlender> Blender;
   brume::Film Film;
   vtkRenderWindow* Window = nullptr; ///< the window being drawn into, for its abort check
-  int RendererTwoSided = -1;         ///< the renderer's TwoSidedLighting; -1 without a renderer
   std::set<std::string> Warned;      ///< settings that were warned of
 };
 
@@ -56,6 +55,13 @@ bool vtkBrumeVolumeMapper::ReportProgress(double fraction)
 const brume::Scene* vtkBrumeVolumeMapper::UpdateScene(
   vtkVolume* volume, vtkCamera* camera, vtkLightCollection* lights, int width, int height)
 {
+  return this->UpdateScene(
+    volume, camera, lights, width, height, this->TwoSidedLighting != 0);
+}
+
+const brume::Scene* vtkBrumeVolumeMapper::UpdateScene(vtkVolume* volume, vtkCamera* camera,
+  vtkLightCollection* lights, int width, int height, bool twoSidedLighting)
+{
   if (!volume || !camera || width <= 0 || height <= 0)
   {
     vtkErrorMacro("A render needs a volume, a camera and a size of at least 1 x 1 pixels.");
@@ -67,14 +73,11 @@ const brume::Scene* vtkBrumeVolumeMapper::UpdateScene(
     this->GetInputAlgorithm()->Update();
   }
   this->WarnOfIgnoredSettings(volume);
-  const bool twoSided = this->Internal->RendererTwoSided >= 0
-    ? this->Internal->RendererTwoSided != 0
-    : this->TwoSidedLighting != 0;
   std::string wrong;
   try
   {
     wrong = this->Internal->Builder.Update(
-      this, volume, camera, lights, width, height, twoSided, this->NumberOfThreads);
+      this, volume, camera, lights, width, height, twoSidedLighting, this->NumberOfThreads);
   }
   catch (const std::bad_alloc&)
   {
@@ -252,11 +255,8 @@ void vtkBrumeVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
   {
     return;
   }
-  this->Internal->RendererTwoSided = renderer->GetTwoSidedLighting();
-  const bool updated = this->UpdateScene(
-    volume, renderer->GetActiveCamera(), renderer->GetLights(), width, height);
-  this->Internal->RendererTwoSided = -1;
-  if (!updated)
+  if (!this->UpdateScene(volume, renderer->GetActiveCamera(), renderer->GetLights(), width, height,
+        renderer->GetTwoSidedLighting() != 0))
   {
     return;
   }

@@ -158,6 +158,8 @@ private:
   vtkBrumeVolumeMapper(const vtkBrumeVolumeMapper&) = delete;
   void operator=(const vtkBrumeVolumeMapper&) = delete;
 
+  const brume::Scene* UpdateScene(vtkVolume* volume, vtkCamera* camera, vtkLightCollection* lights,
+    int width, int height, bool twoSidedLighting);
   bool RenderUpdated(brume::Scene& scene, brume::Film& film);
   void WarnOfIgnoredSettings(vtkVolume* volume);
   void ReadSurfaceDepth(vtkRenderer* renderer, brume::Scene& scene, const brume::Film& film,

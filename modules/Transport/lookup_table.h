@@ -40,9 +40,12 @@ struct LookupNode
 /// interpolate.
 struct LookupTable
 {
-  /// Intervals between the nodes. The table is one node longer, so that the last interval has two
-  /// ends like any other.
-  static constexpr int intervals = 4096;
+  /// Intervals between the nodes, a power of two. The table is one node longer, so that the last
+  /// interval has two ends like any other. The fewest that are within a hundredth of the opacity and
+  /// the colours at every node of the classification, so that no peak falls between the nodes.
+  static constexpr int least_intervals = 4096;
+  static constexpr int most_intervals = 65536;
+  int intervals = least_intervals;
 
   std::vector<LookupNode> nodes;
   /// Position in the table = (value − lower) * scale, clamped to [0, intervals].
@@ -55,6 +58,7 @@ struct LookupTable
   float empty_value = 0.0f;
 
   /// Factor on the optical depth by gradient magnitude, same form; empty where there is none.
+  static constexpr int gradient_intervals = 4096;
   std::vector<float> gradient_factor;
   float gradient_table_scale = 1.0f;
 

@@ -23,7 +23,7 @@ namespace HWY_NAMESPACE
 #include "Transport/shading-inl.h"
 
 /// Pixels of a packet: as square as the lanes allow.
-constexpr int packet_width = lane_count >= 8 ? 4 : 2;
+constexpr int packet_width = lane_count >= 8 ? 4 : lane_count >= 2 ? 2 : 1;
 constexpr int packet_height = lane_count / packet_width;
 
 /// Samples that are taken between two looks at the visible bricks.
@@ -37,6 +37,7 @@ struct Rays
   Real steps;        ///< count, the partial last one included; 0 for a ray that misses
   Real last_step;    ///< length of the last one, in steps; (0, 1]
   HWY_ALIGN float start_offset[lane_count]; ///< data units from the near plane
+  HWY_ALIGN float world_scale[lane_count];  ///< world units in one of the data's, along the ray
 };
 
 inline int make_rays(const MarchTask& task, int x, int y, Rays& rays)
@@ -51,6 +52,7 @@ inline int make_rays(const MarchTask& task, int x, int y, Rays& rays)
     const int px = x + lane % packet_width;
     const int py = y + lane / packet_width;
     rays.start_offset[lane] = 0.0f;
+    rays.world_scale[lane] = 1.0f;
     if (px >= task.x1 || py >= task.y1)
     {
       continue;
@@ -66,6 +68,7 @@ inline int make_rays(const MarchTask& task, int x, int y, Rays& rays)
     steps[lane] = static_cast<float>(whole);
     last[lane] = static_cast<float>(count - (whole - 1.0));
     rays.start_offset[lane] = static_cast<float>(segment.start_offset);
+    rays.world_scale[lane] = static_cast<float>(segment.world_scale);
     const glm::dvec3 step = (segment.end - segment.begin) / count;
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -163,6 +166,7 @@ struct Lookup
 {
   HWY_INLINE explicit Lookup(const LookupTable* table)
     : Nodes(table ? &table->nodes[0].red : nullptr)
+    , Last(table ? table->intervals : 0)
     , Lower(table ? table->lower : 0.0f)
     , Scale(table ? table->scale : 0.0f)
     , offset(hn::Zero(int_tag))
@@ -172,10 +176,9 @@ struct Lookup
 
   HWY_INLINE void locate(Real value)
   {
-    constexpr int last = LookupTable::intervals;
     const Real position = clamp((value - real(Lower)) * real(Scale), hn::Zero(float_tag),
-      real(static_cast<float>(last)));
-    const Int index = hn::Min(hn::ConvertTo(int_tag, position), integer(last - 1));
+      real(static_cast<float>(Last)));
+    const Int index = hn::Min(hn::ConvertTo(int_tag, position), integer(Last - 1));
     fraction = position - hn::ConvertTo(float_tag, index);
     offset = hn::ShiftLeft<2>(index);
   }
@@ -189,6 +192,7 @@ struct Lookup
   HWY_INLINE Vec3<Real> colour() const { return { channel<0>(), channel<1>(), channel<2>() }; }
 
   const float* Nodes;
+  int Last;
   float Lower;
   float Scale;
   Int offset;
@@ -200,7 +204,7 @@ HWY_INLINE Real gradient_factor(const MarchTask& task, const Vec3<Real>& gradien
   const Vec3<Real> scaled = gradient *
     Vec3<Real>{ real(task.gradient_scale[0]), real(task.gradient_scale[1]),
       real(task.gradient_scale[2]) };
-  constexpr int last = LookupTable::intervals;
+  constexpr int last = LookupTable::gradient_intervals;
   const Real magnitude = hn::Sqrt(dot(scaled, scaled));
   const Real position =
     hn::Min(magnitude, real(static_cast<float>(last)));
@@ -289,6 +293,9 @@ private:
     {
       const Real density = max(this->Values.value(cell), hn::Zero(float_tag));
       gathered.optical_depth.add(hn::IfThenElseZero(active, density * length));
+      const Mask crossed = hn::And(gathered.optical_depth.total > real(this->Task.half_depth),
+        middle < gathered.half_way);
+      gathered.half_way = select(hn::And(active, crossed), middle, gathered.half_way);
       return;
     }
     else
@@ -341,7 +348,11 @@ private:
     const Vec3<Real>& gradient, const Vec3<Real>& colour) const
   {
     const ShadeModel& model = *this->Task.shade;
-    const Vec3<Real> slope = multiply(model.world_from_gradient, 3, gradient);
+    // Between values near the ends of float's range the differences overflow: no direction then.
+    Vec3<Real> slope = multiply(model.world_from_gradient, 3, gradient);
+    const Mask finite = hn::IsFinite(dot(slope, slope));
+    slope = { hn::IfThenElseZero(finite, slope.x), hn::IfThenElseZero(finite, slope.y),
+      hn::IfThenElseZero(finite, slope.z) };
     Vec3<Real> along = multiply(model.world_from_index, 4, rays.delta);
     along = along * rsqrt_or_zero(dot(along, along));
     Vec3<Real> world = place;
@@ -383,7 +394,12 @@ inline void store(const MarchTask& task, int x, int y, const Rays& rays, const G
     }
     const std::size_t pixel = static_cast<std::size_t>(y + lane / packet_width) *
         task.film->width + (x + lane % packet_width);
-    const double optical_depth = (double(depth[lane]) - double(lost[lane])) * scale;
+    double optical_depth = (double(depth[lane]) - double(lost[lane])) * scale;
+    if (!std::isfinite(optical_depth))
+    {
+      // Densities near the end of float's range: their sum overflowed, and nothing passes.
+      optical_depth = std::numeric_limits<double>::infinity();
+    }
     const float transmittance = static_cast<float>(transmittance_from_optical_depth(optical_depth));
     for (int c = 0; c < 3; ++c)
     {
@@ -391,7 +407,8 @@ inline void store(const MarchTask& task, int x, int y, const Rays& rays, const G
       task.film->transmittance[c][pixel] = transmittance;
     }
     task.film->depth[pixel] =
-      rays.start_offset[lane] + half_way[lane] * static_cast<float>(task.step);
+      (rays.start_offset[lane] + half_way[lane] * static_cast<float>(task.step)) *
+      rays.world_scale[lane];
     task.film->error[pixel] = task.step_error + left[lane] * task.brightest;
   }
 }

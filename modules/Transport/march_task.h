@@ -21,6 +21,7 @@ struct MarchTask
   const ShadeModel* shade = nullptr;  ///< classified grids
   float gradient_scale[3] = { 1, 1, 1 };  ///< a voxel's difference to places in the gradient's table
   double depth_per_value = 0.0;           ///< density grids: optical depth of a step of density 1
+  float half_depth = 0.0f; ///< density grids: the sum of densities, in steps, that takes half
   const VisibleBricks* bricks = nullptr;  ///< null: nothing to leap over
   bool non_finite = false;                ///< the grid holds NaN or infinities
   double step = 1.0;                      ///< in the data's units

@@ -138,7 +138,7 @@ Marcher::~Marcher() = default;
 MarchStatistics Marcher::render(
   const Scene& scene, const MarchSettings& settings, Film& film, const Progress& progress)
 {
-  scene.grid.validate();
+  scene.validate();
   if (!(settings.step > 0.0) || !std::isfinite(settings.step))
   {
     throw std::invalid_argument("the step must be a positive length");
@@ -185,7 +185,9 @@ MarchStatistics Marcher::render(
     common.shade = &shade;
     // What is behind can change a pixel by no more than the transmittance left times the brightest
     // of the matter there and of a white background.
-    const double brightest = std::max(1.0, kept.table.brightest * shade.brightest);
+    // Highlights do not take the matter's colour: a dim one has them all the same.
+    const double brightest =
+      std::max(1.0, double(kept.table.brightest)) * std::max(1.0, shade.brightest);
     common.brightest = static_cast<float>(brightest);
     common.leave_below = static_cast<float>(settings.leave_error / brightest);
     for (int axis = 0; axis < 3; ++axis)
@@ -197,6 +199,7 @@ MarchStatistics Marcher::render(
   else
   {
     common.depth_per_value = scene.density.extinction * step;
+    common.half_depth = static_cast<float>(std::log(2.0) / common.depth_per_value);
   }
   statistics.seconds_prepare = seconds_since(start_prepare);
 
@@ -280,6 +283,7 @@ std::string simd_targets()
 
 bool force_simd_target(const std::string& name)
 {
+  const std::int64_t before = hwy::SupportedTargets();
   hwy::SetSupportedTargetsForTest(0);
   if (name.empty())
   {
@@ -295,7 +299,8 @@ bool force_simd_target(const std::string& name)
       return true;
     }
   }
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  hwy::SetSupportedTargetsForTest(before);
+  hwy::GetChosenTarget().Update(before);
   return false;
 }
 

@@ -22,6 +22,7 @@ struct RaySegment
   glm::dvec3 end{ 0.0 };     ///< index space
   double length = 0.0;       ///< from begin to end, in the data's units; 0 for a miss
   double start_offset = 0.0; ///< from the near plane to begin, in the data's units
+  double world_scale = 1.0;  ///< world units in one of the data's, along the ray
 };
 
 /// Makes the rays of one scene and one picture size.
@@ -32,6 +33,7 @@ public:
     : Width(width)
     , Height(height)
     , DataFromIndex(scene.data_from_index)
+    , WorldFromIndex(scene.world_from_data * scene.data_from_index)
   {
     // One matrix from index space to the clip cube: far origins cancel here, in double precision,
     // rather than in every ray.
@@ -101,6 +103,7 @@ private:
     const double whole = glm::length(this->DataFromIndex * d);
     result.length = whole * (s1 - s0);
     result.start_offset = whole * s0;
+    result.world_scale = glm::length(this->WorldFromIndex * d) / whole;
     if (!std::isfinite(result.length))
     {
       return RaySegment();
@@ -111,6 +114,7 @@ private:
   int Width;
   int Height;
   glm::dmat3 DataFromIndex;
+  glm::dmat3 WorldFromIndex;
   glm::dmat4 IndexFromClip{ 1.0 };
   double Lower[3];
   double Upper[3];

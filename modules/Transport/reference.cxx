@@ -195,7 +195,8 @@ void store(Film& film, std::size_t pixel, const RaySegment& segment, const RayRe
     film.radiance[c][pixel] = static_cast<float>(result.radiance[c]);
     film.transmittance[c][pixel] = static_cast<float>(result.transmittance);
   }
-  film.depth[pixel] = static_cast<float>(segment.start_offset + result.half_way);
+  film.depth[pixel] =
+    static_cast<float>((segment.start_offset + result.half_way) * segment.world_scale);
   film.error[pixel] = static_cast<float>(error);
 }
 
@@ -204,7 +205,6 @@ template <class Draw>
 bool for_each_ray(
   const Scene& scene, Film& film, int threads, const Progress& progress, const Draw& draw)
 {
-  scene.grid.validate();
   if (!scene.surface_depth.empty() && scene.surface_depth.size() != film.size())
   {
     throw std::invalid_argument("the surface depths are of another size than the picture");
@@ -274,6 +274,7 @@ ReferenceStatistics render_reference(const Scene& scene, const ReferenceSettings
     throw std::invalid_argument(
       "the reference needs a positive tolerance and at least 2 pieces a cell");
   }
+  scene.validate();
   ReferenceStatistics statistics;
   const auto start = std::chrono::steady_clock::now();
   std::mutex mutex;
@@ -320,6 +321,7 @@ bool render_fixed_step(const Scene& scene, double step, SamplePlacement placemen
   {
     throw std::invalid_argument("the step must be a positive length");
   }
+  scene.validate();
   bool completed = false;
   with_medium(scene,
     [&](const auto& medium)

@@ -187,8 +187,7 @@ private:
   struct Taps
   {
     int index[4];
-    double value[4];      ///< weights of the linear interpolation
-    double difference[4]; ///< weights of the interpolated central difference
+    double value[4]; ///< weights of the linear interpolation
   };
 
   Taps taps(double p, int axis) const
@@ -202,9 +201,7 @@ private:
       t.index[i] = std::clamp(low + i - 1, 0, last);
     }
     const double value[4] = { 0.0, 1.0 - f, f, 0.0 };
-    const double difference[4] = { 0.5 * (f - 1.0), -0.5 * f, 0.5 * (1.0 - f), 0.5 * f };
     std::copy(value, value + 4, t.value);
-    std::copy(difference, difference + 4, t.difference);
     return t;
   }
 
@@ -227,31 +224,29 @@ private:
     return sum;
   }
 
-  /// Voxels' central differences, one-sided by half at the grid's ends, then interpolated.
+  /// Voxels' central differences, one-sided by half at the grid's ends, then interpolated. The
+  /// differences come first, so that the gradient of a constant is 0 and not a rounding error.
   glm::dvec3 gradient(const glm::dvec3& p) const
   {
     const int component = this->TheScene.grid.components - 1;
-    const Taps x = this->taps(p.x, 0);
-    const Taps y = this->taps(p.y, 1);
-    const Taps z = this->taps(p.z, 2);
+    const Taps t[3] = { this->taps(p.x, 0), this->taps(p.y, 1), this->taps(p.z, 2) };
     glm::dvec3 sum(0.0);
-    for (int k = 0; k < 4; ++k)
+    for (int corner = 0; corner < 8; ++corner)
     {
-      for (int j = 0; j < 4; ++j)
+      const int at[3] = { 1 + (corner & 1), 1 + (corner >> 1 & 1), 1 + (corner >> 2 & 1) };
+      const double weight = t[0].value[at[0]] * t[1].value[at[1]] * t[2].value[at[2]];
+      for (int axis = 0; axis < 3; ++axis)
       {
-        const bool outer_k = k == 0 || k == 3;
-        const bool outer_j = j == 0 || j == 3;
-        if (outer_k && outer_j)
+        const auto neighbour = [&](int offset)
         {
-          continue;
-        }
-        for (int i = outer_j || outer_k ? 1 : 0; i < (outer_j || outer_k ? 3 : 4); ++i)
-        {
-          const double v = this->voxel(x.index[i], y.index[j], z.index[k], component);
-          sum.x += x.difference[i] * y.value[j] * z.value[k] * v;
-          sum.y += x.value[i] * y.difference[j] * z.value[k] * v;
-          sum.z += x.value[i] * y.value[j] * z.difference[k] * v;
-        }
+          int index[3];
+          for (int a = 0; a < 3; ++a)
+          {
+            index[a] = t[a].index[at[a] + (a == axis ? offset : 0)];
+          }
+          return this->voxel(index[0], index[1], index[2], component);
+        };
+        sum[axis] += weight * 0.5 * (neighbour(1) - neighbour(-1));
       }
     }
     return sum;

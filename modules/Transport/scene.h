@@ -124,6 +124,10 @@ struct Scene
   /// meaning (medium_revision: density, classification) change.
   std::uint64_t data_revision = 0;
   std::uint64_t medium_revision = 0;
+
+  /// Throws std::invalid_argument for what no integrator can draw: see Grid::validate and the bounds
+  /// of Density and Classification; a density of four components, colours that are missing.
+  void validate() const;
 };
 
 }

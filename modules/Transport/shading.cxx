@@ -41,8 +41,10 @@ ShadeModel prepare_shading(const Scene& scene)
     l.exponent = static_cast<float>(light.exponent);
     l.positional = light.positional;
     model.needs_place = model.needs_place || l.positional;
-    brightest_diffuse += *std::max_element(l.diffuse, l.diffuse + 3);
-    brightest_specular += *std::max_element(l.specular, l.specular + 3);
+    // A lamp is strongest at no distance: 1 / a, which may be infinite.
+    const double strongest = l.positional ? 1.0 / std::max(0.0f, l.attenuation[0]) : 1.0;
+    brightest_diffuse += strongest * *std::max_element(l.diffuse, l.diffuse + 3);
+    brightest_specular += strongest * *std::max_element(l.specular, l.specular + 3);
     model.lights.push_back(l);
   }
   model.brightest = shading.enabled ? brightest_diffuse + brightest_specular : 1.0;

@@ -1,0 +1,147 @@
+// What cannot be drawn is refused, by the marcher and by the reference, before anything is read.
+#include "../support/transport_scenes.h"
+
+#include "Transport/reference.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+
+using namespace transport_scenes;
+
+namespace
+{
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct Refusal : testing::Test
+{
+  Voxels<std::uint8_t> voxels{ 4, 4, 4, [](int i, int, int) { return 40 * i; } };
+  Voxels<std::uint8_t> colours{ 4, 4, 4, [](int i, int, int, int c) { return 40 * i + c; } };
+
+  Scene good(ValueMeaning meaning) const
+  {
+    Scene scene;
+    scene.grid = voxels.grid();
+    scene.meaning = meaning;
+    if (meaning == ValueMeaning::Classified)
+    {
+      scene.classification = classify(0.0, 160.0, [](double v) { return v / 200.0; },
+        [](double) { return glm::dvec3(1.0); }, 5);
+    }
+    scene.camera = view_of(scene, glm::dvec3(0, 0, -1), true).camera(1.0);
+    return scene;
+  }
+
+  template <class Change>
+  void refuses(ValueMeaning meaning, const Change& change) const
+  {
+    Scene scene = good(meaning);
+    Film film(4, 4);
+    EXPECT_NO_THROW(Marcher().render(scene, {}, film));
+    EXPECT_NO_THROW(render_reference(scene, {}, film));
+    change(scene);
+    EXPECT_THROW(Marcher().render(scene, {}, film), std::invalid_argument);
+    EXPECT_THROW(render_reference(scene, {}, film), std::invalid_argument);
+    EXPECT_THROW(render_fixed_step(scene, 1.0, SamplePlacement::Middle, 0.0, 1, film),
+      std::invalid_argument);
+  }
+};
+
+TEST_F(Refusal, OfGrids)
+{
+  for (ValueMeaning meaning : { ValueMeaning::Density, ValueMeaning::Classified })
+  {
+    refuses(meaning, [](Scene& s) { s.grid.voxels = nullptr; });
+    refuses(meaning, [](Scene& s) { s.grid.dims[0] = 1; });
+    refuses(meaning, [](Scene& s) { s.grid.dims[1] = 0; });
+    refuses(meaning, [](Scene& s) { s.grid.dims[2] = -1; });
+    refuses(meaning, [](Scene& s) { s.grid.components = 3; });
+    refuses(meaning, [](Scene& s) { s.grid.components = 2; });
+    refuses(meaning, [](Scene& s) { s.grid.components = 4; s.grid.type = VoxelType::UInt16; });
+    refuses(meaning, [](Scene& s) { s.grid.dims[0] = 3; s.grid.dims[1] = s.grid.dims[2] = 1; });
+    refuses(meaning, [](Scene& s) { s.surface_depth.resize(3); });
+  }
+}
+
+TEST_F(Refusal, OfMeanings)
+{
+  const ValueMeaning density = ValueMeaning::Density;
+  const ValueMeaning classified = ValueMeaning::Classified;
+  refuses(density, [&](Scene& s) { s.grid = colours.grid(); }); // which of the four?
+  refuses(density, [](Scene& s) { s.density.extinction = nan; });
+  refuses(density, [](Scene& s) { s.density.extinction = infinity; });
+  refuses(density, [](Scene& s) { s.density.extinction = -1.0; });
+  refuses(classified, [](Scene& s) { s.classification.rgb.clear(); });
+  refuses(classified, [](Scene& s) { s.classification.opacity.clear(); });
+  refuses(classified, [](Scene& s) { s.classification.unit_distance = 0.0; });
+  refuses(classified, [](Scene& s) { s.classification.lower = s.classification.upper; });
+  refuses(classified, [](Scene& s) { s.classification.gradient_opacity = { 1.0 }; });
+}
+
+TEST_F(Refusal, OfSettings)
+{
+  const Scene scene = good(ValueMeaning::Classified);
+  Film film(4, 4);
+  for (double step : { 0.0, -1.0, nan, infinity })
+  {
+    MarchSettings settings;
+    settings.step = step;
+    EXPECT_THROW(Marcher().render(scene, settings, film), std::invalid_argument);
+    EXPECT_THROW(render_fixed_step(scene, step, SamplePlacement::Middle, 0.0, 1, film),
+      std::invalid_argument);
+  }
+  for (double error : { -1.0, nan })
+  {
+    MarchSettings settings;
+    settings.leave_error = error;
+    EXPECT_THROW(Marcher().render(scene, settings, film), std::invalid_argument);
+  }
+  for (double tolerance : { 0.0, -1.0, nan })
+  {
+    ReferenceSettings settings;
+    settings.tolerance = tolerance;
+    EXPECT_THROW(render_reference(scene, settings, film), std::invalid_argument);
+  }
+  Film none;
+  EXPECT_THROW(Marcher().render(scene, {}, none), std::invalid_argument);
+  EXPECT_THROW(render_reference(scene, {}, none), std::invalid_argument);
+}
+
+TEST(Grid, BoxIsOfPointsOrCells)
+{
+  Grid grid;
+  grid.dims[0] = 2;
+  grid.dims[1] = 5;
+  grid.dims[2] = 1;
+  EXPECT_EQ(grid.lower(1), 0.0);
+  EXPECT_EQ(grid.upper(1), 4.0);
+  grid.cell_centred = true;
+  EXPECT_EQ(grid.lower(1), -0.5);
+  EXPECT_EQ(grid.upper(1), 4.5);
+  EXPECT_EQ(grid.upper(0), 1.5);
+  grid.padding_x = 1;
+  EXPECT_EQ(grid.upper(0), 0.5);
+  grid.components = 4;
+  EXPECT_EQ(grid.bytes(), 40u);
+}
+
+TEST(Film, BeginsClearAndGoesOverABackground)
+{
+  EXPECT_THROW(Film(0, 3), std::invalid_argument);
+  EXPECT_THROW(Film(3, -1), std::invalid_argument);
+  Film film(2, 1);
+  const double background[3] = { 0.25, 0.5, 2.0 };
+  EXPECT_EQ(over_background(film, background),
+    (std::vector<float>{ 0.25f, 0.5f, 2.0f, 0.25f, 0.5f, 2.0f }));
+  EXPECT_TRUE(std::isinf(film.depth[0]));
+  film.radiance[0][1] = 3.0f;
+  film.transmittance[0][1] = 0.5f;
+  film.transmittance[1][1] = 0.0f;
+  EXPECT_EQ(over_background(film, background),
+    (std::vector<float>{ 0.25f, 0.5f, 2.0f, 3.125f, 0.0f, 2.0f }));
+}
+
+}
