@@ -40,6 +40,9 @@ if (BRUME_SANITIZE)
     -fno-sanitize-recover=all -O1)
   add_compile_definitions(
     "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4|HWY_AVX3|HWY_AVX3_DL)")
+  if (CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    add_compile_options(-Wno-maybe-uninitialized) # false alarms in <regex> under -fsanitize
+  endif ()
   add_link_options(-fsanitize=${BRUME_SANITIZE})
 endif ()
 
