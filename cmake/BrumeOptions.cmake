@@ -34,8 +34,15 @@ if (BRUME_WARNINGS_AS_ERRORS)
   add_compile_options(-Werror)
 endif ()
 if (BRUME_SANITIZE)
+  # The ray kernels are compiled once for each instruction set, minutes each under sanitizers: here
+  # the oldest and one wide set stand for all, and -O1 for the build type's level.
   add_compile_options(-fsanitize=${BRUME_SANITIZE} -fno-omit-frame-pointer
-    -fno-sanitize-recover=all)
+    -fno-sanitize-recover=all -O1)
+  add_compile_definitions(
+    "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4|HWY_AVX3|HWY_AVX3_DL)")
+  if (CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    add_compile_options(-Wno-maybe-uninitialized) # false alarms in <regex> under -fsanitize
+  endif ()
   add_link_options(-fsanitize=${BRUME_SANITIZE})
 endif ()
 
