@@ -11,6 +11,17 @@ namespace brume::app
 
 namespace fs = std::filesystem;
 
+namespace
+{
+
+fs::path place(const std::string& path)
+{
+  std::error_code error;
+  return fs::weakly_canonical(fs::absolute(path, error), error);
+}
+
+}
+
 void check_output(
   const std::string& path, const std::string& input, const std::vector<std::string>& others)
 {
@@ -25,7 +36,7 @@ void check_output(
   }
   for (const std::string& other : others)
   {
-    if (!other.empty() && fs::weakly_canonical(path, error) == fs::weakly_canonical(other, error))
+    if (!other.empty() && place(path) == place(other))
     {
       throw Failure(path, "two outputs have this name", "name two files", BadCall);
     }

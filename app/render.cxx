@@ -157,6 +157,10 @@ Drawn draw_stock(const VolumeScene& scene, const MapperName& mapper)
 
 void run(const Options& options)
 {
+  if (options.output.empty())
+  {
+    throw Failure("--output", "it names no file", "name one that ends in .png or .exr", BadCall);
+  }
   try
   {
     check_picture_path(options.output);

@@ -16,7 +16,8 @@ namespace
 
 const CLI::Validator& any()
 {
-  static const CLI::Validator check = number("a number", [](double) { return true; });
+  static const CLI::Validator check = number("a number from -1e30 to 1e30",
+    [](double v) { return std::abs(v) <= 1e30; });
   return check;
 }
 

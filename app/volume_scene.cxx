@@ -10,7 +10,9 @@
 
 #include "vtkBrumeRayMarchMapper.h"
 
+#include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
+#include "vtkCommand.h"
 #include "vtkImageData.h"
 #include "vtkLight.h"
 #include "vtkLightCollection.h"
@@ -26,6 +28,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <sstream>
 
 namespace brume::app
 {
@@ -43,13 +46,23 @@ std::vector<glm::dvec3> visible_corners(const VolumeScene& scene)
   vtkNew<vtkBrumeRayMarchMapper> mapper;
   mapper->SetInputData(scene.input.image);
   scene.volume->SetMapper(mapper);
+  std::string error;
+  vtkNew<vtkCallbackCommand> observer; // in place of the standard error stream
+  observer->SetClientData(&error);
+  observer->SetCallback([](vtkObject*, unsigned long, void* data, void* text)
+    { *static_cast<std::string*>(data) = static_cast<const char*>(text); });
+  mapper->AddObserver(vtkCommand::ErrorEvent, observer);
   vtkNew<vtkCamera> camera;
   const brume::Scene* plain =
     mapper->UpdateScene(scene.volume, camera, scene.lights, scene.width(), scene.height());
   scene.volume->SetMapper(nullptr);
   if (!plain)
   {
-    throw Failure(scene.options.input, "it cannot be drawn", "see brume info");
+    // "…\nCLASS (ADDRESS): scalars of 3 components are not drawn: take one component …"
+    const std::size_t address = error.find("): ");
+    throw Failure(scene.options.input + ": " +
+      (address == std::string::npos ? "it cannot be drawn: see brume info"
+                                    : error.substr(address + 3, error.find_last_not_of("\n ") - address - 2)));
   }
   const BrickRanges& ranges = *plain->ranges;
   const LookupTable table = make_lookup_table(plain->classification, 1.0);
@@ -133,6 +146,8 @@ void fit_camera(const std::vector<glm::dvec3>& points, vtkCamera* camera, double
     const double half = std::max(std::abs(view.y), std::abs(view.x) / aspect);
     distance = std::max(distance, view.z + half / tangent);
   }
+  // A single point has no size that tells how far to go back.
+  distance = std::max(distance, 1e-6 * (1.0 + glm::length(centre)));
   const glm::dvec3 focal = world_from_view * centre;
   const glm::dvec3 position = focal + toward_eye * distance;
   camera->SetFocalPoint(focal.x, focal.y, focal.z);
@@ -174,6 +189,24 @@ vtkSmartPointer<vtkCamera> make_camera(const VolumeScene& scene)
   return camera;
 }
 
+/// A step so short that a ray would not end in any patience is refused.
+void check_sample_distance(const VolumeScene& scene)
+{
+  constexpr double most_steps = 1 << 20;
+  double bounds[6];
+  scene.input.image->GetBounds(bounds);
+  const double diagonal = glm::length(
+    glm::dvec3(bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4]));
+  const double least = diagonal / most_steps;
+  if (scene.options.sample_distance && *scene.options.sample_distance < least)
+  {
+    std::ostringstream remedy;
+    remedy << "give at least " << least;
+    throw Failure("--sample-distance", "a ray would take more than a million steps through " +
+        scene.options.input, remedy.str(), BadCall);
+  }
+}
+
 double smallest_edge(vtkImageData* image)
 {
   double spacing[3];
@@ -212,6 +245,7 @@ VolumeScene make_volume_scene(const SceneOptions& options)
     }
   }
 
+  check_sample_distance(scene);
   InterruptionWatch::check(options.input.c_str());
   vtkNew<vtkVolumeProperty> property;
   apply(*scene.preset, image, property);

@@ -55,7 +55,7 @@ expect_success() {
 expect_failure() {
   expect_status "$1"
   [ ! -s ../out ] || fail "expected nothing on standard output"
-  if [ "$(wc -l < ../err)" != 1 ] || ! grep -qE '^brume: [^:]+: .+' ../err; then
+  if [ "$(wc -l < ../err)" != 1 ] || ! grep -qE '^brume: [^ ].*: .+' ../err; then
     fail "expected one line 'brume: …: …' on standard error"
   fi
 }
@@ -100,6 +100,133 @@ remember() { sha256sum -- "$@" > ../remembered; }
 expect_unchanged() {
   sha256sum --quiet --strict -c ../remembered > ../changed 2>&1 ||
     fail "expected unchanged: $(head -n 1 ../changed)"
+}
+
+# bad_calls SUBCOMMAND OUTPUT: what is refused the same by each subcommand that draws, without a file
+# left behind. OUTPUT is a good --output.
+bad_calls() {
+  local words
+  while read -r words; do
+    case_ "$1 refuses: $words"
+    # shellcheck disable=SC2086
+    run "$1" sample:cloud --output "$2" $words
+    expect_failure 2
+    expect_error "^brume: ${words%% *}"
+    expect_no_files
+  done << 'END'
+--nonsense
+--resolution 0,0
+--resolution 48
+--resolution 48,48,48
+--resolution 1e9,1
+--resolution 1.5,2
+--camera-position 1,2
+--camera-position nan,0,0
+--camera-position inf,0,0
+--camera-focal-point a,b,c
+--camera-view-up 0,0
+--camera-view-angle 180
+--camera-view-angle 0
+--camera-parallel-scale 0
+--background -1,0,0
+--preset nonsense
+--opacity-unit-distance 0
+--sample-distance -1
+--sample-distance nan
+--sample-distance 1e-300
+--tolerance 2
+--threads 0
+--threads 2.5
+--threads
+--tolerance 0.1 --tolerance 0.2
+--interpolation cubic
+--shade perhaps
+--quiet --verbose
+END
+}
+
+# bad_inputs SUBCOMMAND OPTIONS...: files that cannot be read: one line, status 1, no file.
+bad_inputs() {
+  local subcommand=$1
+  shift
+  case_ "$subcommand: a file that is not there"
+  run "$subcommand" ../none.nrrd "$@"
+  expect_failure 1
+  expect_error '^brume: \.\./none\.nrrd: no such file'
+  expect_no_files
+
+  case_ "$subcommand: an empty file"
+  : > ../empty.nii.gz
+  run "$subcommand" ../empty.nii.gz "$@"
+  expect_failure 1
+  expect_no_files
+
+  case_ "$subcommand: a text under the name of a scan"
+  echo "hello" > ../text.nii.gz
+  run "$subcommand" ../text.nii.gz "$@"
+  expect_failure 1
+  expect_no_files
+
+  case_ "$subcommand: a truncated .nrrd"
+  blob ../whole.nrrd
+  head -c 4000 ../whole.nrrd > ../cut.nrrd
+  run "$subcommand" ../cut.nrrd "$@"
+  expect_failure 1
+  expect_no_files
+
+  case_ "$subcommand: a truncated .nii.gz"
+  series ../whole.nii
+  gzip -c ../whole.nii | head -c 60 > ../cut.nii.gz
+  run "$subcommand" ../cut.nii.gz "$@"
+  expect_failure 1
+  expect_no_files
+
+  case_ "$subcommand: a truncated .vti"
+  printf '<?xml version="1.0"?>\n<VTKFile type="ImageData" version="0.1">\n<ImageData WholeExtent=' \
+    > ../cut.vti
+  run "$subcommand" ../cut.vti "$@"
+  expect_failure 1
+  expect_no_files
+
+  case_ "$subcommand: no voxels"
+  printf 'NRRD0004\ntype: uint8\ndimension: 3\nsizes: 0 4 4\nencoding: raw\n\n' > ../zero.nrrd
+  run "$subcommand" ../zero.nrrd "$@"
+  expect_failure 1
+  expect_no_files
+
+  case_ "$subcommand: a header that promises 10^12 voxels is refused at once"
+  printf 'NRRD0004\ntype: uint8\ndimension: 3\nsizes: 10000 10000 10000\nencoding: raw\n\nabc' \
+    > ../huge.nrrd
+  local before=$SECONDS
+  run "$subcommand" ../huge.nrrd "$@"
+  expect_failure 1
+  [ $((SECONDS - before)) -lt 20 ] || fail "expected an answer at once"
+  expect_no_files
+
+  case_ "$subcommand: a folder"
+  mkdir ../folder
+  run "$subcommand" ../folder "$@"
+  expect_failure 1
+  expect_no_files
+
+  case_ "$subcommand: a name with a line end makes no second line"
+  run "$subcommand" $'../a\nb.nrrd' "$@"
+  expect_failure 1
+  expect_no_files
+}
+
+# interrupted SIGNAL SECONDS ARGUMENTS...: runs the program and sends it the signal when so much time
+# has passed. The program must have been at work, not done.
+interrupted() {
+  local signal=$1 seconds=$2 pid
+  shift 2
+  command="brume $* (and $signal)"
+  "$BRUME" "$@" > ../out 2> ../err < /dev/null &
+  pid=$!
+  sleep "$seconds"
+  kill -"$signal" "$pid" 2> /dev/null || fail "the program had ended before the signal"
+  wait "$pid"
+  status=$?
 }
 
 # skip REASON: this file's cases cannot run here.

@@ -1,0 +1,108 @@
+# brume compare.
+# shellcheck shell=bash
+
+unset DISPLAY
+small=(--resolution 48,48 --repetitions 1 --quiet)
+
+case_ "--help"
+run compare --help
+expect_success
+expect_output '^Usage: brume compare INPUT --output DIR \[OPTIONS\]$'
+expect_output '[-][-]repetitions N'
+[ "$(wc -L < ../out)" -le 80 ] || fail "expected lines of at most 80 columns"
+
+case_ "all mappers, without a display: everything is there"
+blob ../blob.nrrd
+run compare ../blob.nrrd --output out "${small[@]}"
+expect_success
+expect_output 'report: out/report\.html'
+expect_file out/{panel,truth}.png out/{raymarch,difference-raymarch}.png out/raymarch.exr \
+  out/{compare.json,report.html}
+if command -v Xvfb > /dev/null && grep -q skipped out/compare.json; then
+  expect_file out/{vtk-gpu,vtk-fixed-point}.{png,exr}
+fi
+! grep -qE '(src|href)="(https?:|//)|url\(["'\'']?(https?:|//)' out/report.html ||
+  fail "expected a report without resources of the web"
+grep -q 'data:image/png;base64,' out/report.html || fail "expected pictures in the report"
+grep -q "brume compare ../blob.nrrd" out/compare.json || fail "expected the command line"
+
+case_ "no display to be had: VTK's mappers are skipped with a reason"
+blob ../blob.nrrd
+command="brume compare, DISPLAY broken, no Xvfb"
+PATH=/nonexistent DISPLAY=:9999 "$BRUME" compare ../blob.nrrd --output out "${small[@]}" \
+  > ../out 2> ../err
+status=$?
+expect_success
+expect_only out/{compare.json,report.html,panel.png,truth.png,raymarch.png,raymarch.exr} \
+  out/difference-raymarch.png
+grep -q 'xvfb' out/compare.json || fail "expected the reason in compare.json"
+
+case_ "options of the scene"
+blob ../blob.nrrd
+run compare ../blob.nrrd --output a --mappers raymarch "${small[@]}" --threads 1
+expect_success
+run compare ../blob.nrrd --output b --mappers raymarch "${small[@]}" --threads 2 \
+  --sample-distance 0.125 --background 0.25,0.5,0.75
+expect_success
+! cmp -s a/raymarch.png b/raymarch.png || fail "expected another picture"
+grep -q '"step": 0.125' b/compare.json || fail "expected the step in compare.json"
+
+case_ "other files of the folder are kept"
+blob ../blob.nrrd
+mkdir out
+echo mine > out/mine.txt
+remember out/mine.txt
+run compare ../blob.nrrd --output out --mappers raymarch "${small[@]}"
+expect_success
+expect_unchanged
+run compare ../none.nrrd --output out --mappers raymarch "${small[@]}"
+expect_failure 1
+expect_unchanged
+expect_file out/report.html out/panel.png
+
+# The calls and inputs that render.sh goes through are refused by the same code; here, one of each.
+case_ "no folder is left behind by a bad call or input"
+run compare sample:cloud --output out/of/three --resolution 0,0
+expect_failure 2
+expect_error 'brume compare --help$'
+run compare sample:cloud --output out/of/three --preset nonsense
+expect_failure 2
+run compare ../none.nrrd --output out/of/three "${small[@]}"
+expect_failure 1
+: > ../empty.nii.gz
+run compare ../empty.nii.gz --output out/of/three "${small[@]}"
+expect_failure 1
+expect_no_file out
+
+case_ "folders that cannot be"
+blob ../blob.nrrd
+echo mine > file
+ln -s nowhere link
+remember file
+for place in file file/under link; do
+  run compare ../blob.nrrd --output "$place" "${small[@]}"
+  expect_failure 1
+done
+expect_unchanged
+[ -L link ] || fail "expected the link to be kept"
+run compare ../blob.nrrd --output "new/$(printf 'x%.0s' {1..300})" "${small[@]}"
+expect_failure 1
+expect_no_file new
+for mappers in nonsense raymarch,raymarch; do
+  run compare ../blob.nrrd --output out --mappers $mappers
+  expect_failure 2
+done
+for repetitions in 0 1.5 x 100000; do
+  run compare ../blob.nrrd --output out --repetitions $repetitions
+  expect_failure 2
+done
+expect_only file
+
+for signal in INT TERM; do
+  case_ "SIG$signal while it computes the truth"
+  blob ../blob.nrrd
+  interrupted $signal 1 compare ../blob.nrrd --output out --resolution 4000,4000 --quiet
+  expect_failure 1
+  expect_error 'interrupted'
+  expect_no_file out
+done

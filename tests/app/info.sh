@@ -1,0 +1,85 @@
+# brume info.
+# shellcheck shell=bash
+
+case_ "--help"
+run info --help
+expect_success
+expect_output '^Usage: brume info INPUT \[OPTIONS\]$'
+expect_output '^ +[-][-]json FILE '
+
+case_ "what a volume is"
+blob ../blob.nrrd
+run info ../blob.nrrd --json blob.json
+expect_success
+expect_output '^name +blob\.nrrd$'
+expect_output '^dimensions +16 x 16 x 16 voxels$'
+expect_output '^scalar type +unsigned char$'
+expect_only blob.json
+for key in name format dimensions spacing origin direction scalar_type components value_range mean \
+  non_finite_voxels memory_bytes percentiles histogram messages; do
+  grep -q "^  \"$key\": " blob.json || fail "expected the key $key in the JSON file"
+done
+
+case_ "a sample"
+run info sample:cloud
+expect_success
+expect_output '^name +sample:cloud$'
+
+case_ "a volume of NaN is told, not refused"
+filled ../nan.nrrd nan 4 4 4
+run info ../nan.nrrd --json nan.json
+expect_success
+expect_output '^non-finite voxels +64$'
+grep -q '"non_finite_voxels": 64' nan.json || fail "expected the count in the JSON file"
+! grep -qiE '[ \[](nan|inf)' nan.json || fail "expected no NaN in the JSON file"
+
+case_ "a 4D NIfTI: the first volume, and a remark"
+series ../series.nii
+run info ../series.nii
+expect_success
+expect_output '^dimensions +4 x 4 x 4 voxels$'
+expect_output '^note +.*2 volumes'
+
+bad_inputs info --json never.json
+
+case_ "the input is not overwritten"
+blob in.nrrd
+remember in.nrrd
+run info in.nrrd --json in.nrrd
+expect_failure 2
+expect_unchanged
+expect_only in.nrrd
+
+case_ "the JSON file's folder is missing"
+blob ../blob.nrrd
+run info ../blob.nrrd --json none/blob.json
+expect_failure 1
+expect_no_files
+
+case_ "what was there stays when the input cannot be read"
+echo former > old.json
+remember old.json
+run info ../none.nrrd --json old.json
+expect_failure 1
+expect_unchanged
+
+case_ "two inputs"
+run info a b
+expect_failure 2
+expect_error 'brume info --help$'
+
+case_ "an unknown sample names the known ones"
+run info sample:nonsense
+expect_failure 2
+expect_error 'head-ct'
+
+if [ -c /dev/full ]; then
+  case_ "standard output is full"
+  blob ../blob.nrrd
+  command="brume info > /dev/full"
+  "$BRUME" info ../blob.nrrd > /dev/full 2> ../err
+  status=$?
+  : > ../out
+  expect_failure 1
+  expect_error 'standard output'
+fi
