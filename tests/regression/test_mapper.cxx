@@ -13,6 +13,7 @@
 #include "vtkMatrix3x3.h"
 #include "vtkMatrix4x4.h"
 #include "vtkTestErrorObserver.h"
+#include "vtkSOADataArrayTemplate.h"
 #include "vtkTransform.h"
 
 #include <gtest/gtest.h>
@@ -161,6 +162,19 @@ TEST(Mapper, TypesThatAreConvertedGiveTheSamePicture)
     Stage stage(ball_image(type));
     EXPECT_LE(difference(film, stage.film()), 2e-6) << type;
   }
+}
+
+TEST(Mapper, ReadsArraysThatAreNotInterleaved)
+{
+  const auto image = ball_image(VTK_UNSIGNED_CHAR);
+  Stage plain(image);
+  const Film film = plain.film();
+  const auto other = ball_image(VTK_UNSIGNED_CHAR);
+  vtkNew<vtkSOADataArrayTemplate<unsigned char>> array;
+  array->DeepCopy(image->GetPointData()->GetScalars());
+  other->GetPointData()->SetScalars(array);
+  Stage stage(other);
+  EXPECT_LE(difference(film, stage.film()), 2e-6);
 }
 
 TEST(Mapper, CellsFillTheirBoxAndPointsReachBetweenThem)
