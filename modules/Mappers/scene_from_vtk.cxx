@@ -206,25 +206,18 @@ std::string SceneFromVTK::UpdateGrid(vtkVolumeMapper* mapper, vtkVolumeProperty*
   std::copy(dims, dims + 3, grid.dims);
   grid.dims[0] += grid.padding_x;
   this->Converted.clear();
-  if (!scalars->HasStandardMemoryLayout())
+  if (!scalars->HasStandardMemoryLayout() || grid.bytes() < 4)
   {
-    if (rgba)
-    {
-      return "colours whose components lie apart are not drawn: copy them to a "
-             "vtkUnsignedCharArray (DeepCopy)";
-    }
-    converts = true;
-  }
-  if (converts)
-  {
-    grid.type = VoxelType::Float32;
+    // Kernels read 4 bytes at a time: the smallest grids are read as floats.
+    converts = converts || components == 1;
+    grid.type = converts ? VoxelType::Float32 : grid.type;
   }
   const std::size_t voxelBytes = size_of(grid.type) * components;
-  if (converts || grid.padding_x || static_cast<std::size_t>(voxels) * voxelBytes < 4)
+  if (converts || grid.padding_x || !scalars->HasStandardMemoryLayout())
   {
-    // One voxel along x becomes two alike, so that pairs can be read; 4 bytes at the least.
+    // One voxel along x becomes two alike, so that pairs can be read.
     const int copies = 1 + grid.padding_x;
-    this->Converted.assign(std::max<std::size_t>(voxels * copies * voxelBytes, 4), 0);
+    this->Converted.resize(voxels * copies * voxelBytes);
     unsigned char* out = this->Converted.data();
     const auto* in = converts
       ? nullptr

@@ -83,6 +83,10 @@ const brume::Scene* vtkBrumeVolumeMapper::UpdateScene(vtkVolume* volume, vtkCame
   {
     wrong = "out of memory: take a smaller volume";
   }
+  catch (const std::invalid_argument& error)
+  {
+    wrong = error.what();
+  }
   if (!wrong.empty())
   {
     vtkErrorMacro(<< wrong);

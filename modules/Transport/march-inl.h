@@ -291,7 +291,9 @@ private:
     const auto cell = this->Values.template locate<Linear>(place);
     if constexpr (kind == Kind::Density)
     {
-      const Real density = max(this->Values.value(cell), hn::Zero(float_tag));
+      // The largest floats would add up to infinity, and infinity less infinity is not a number.
+      const Real density =
+        clamp(this->Values.value(cell), hn::Zero(float_tag), real(1e30f));
       gathered.optical_depth.add(hn::IfThenElseZero(active, density * length));
       const Mask crossed = hn::And(gathered.optical_depth.total > real(this->Task.half_depth),
         middle < gathered.half_way);
