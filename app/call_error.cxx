@@ -37,6 +37,10 @@ std::string unknown_argument(const CLI::App& program)
   {
     rest.push_back(word);
   }
+  if (&called(program) == &program && !rest.empty() && rest.front()[0] != '-')
+  {
+    return rest.front(); // what should have been a subcommand; the rest would belong to it
+  }
   const auto option = std::find_if(rest.begin(), rest.end(),
     [](const std::string& word) { return word.size() > 1 && word[0] == '-' && word != "--"; });
   if (option != rest.end())

@@ -10,13 +10,13 @@ expect_no_files
 case_ "an unknown subcommand is a bad call"
 run nonsense --output x.png
 expect_failure 2
-expect_error '^brume: nonsense: no such subcommand'
+expect_error '^brume: nonsense: there is no such subcommand'
 expect_no_files
 
 case_ "an unknown option is a bad call"
 run --nonsense
 expect_failure 2
-expect_error '^brume: --nonsense: no such'
+expect_error '^brume: --nonsense: there is no such option'
 expect_no_files
 
 case_ "--help is an answer, not an error"
