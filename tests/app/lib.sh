@@ -133,7 +133,6 @@ bad_calls() {
 --opacity-unit-distance 0
 --sample-distance -1
 --sample-distance nan
---sample-distance 1e-300
 --tolerance 2
 --threads 0
 --threads 2.5

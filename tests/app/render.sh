@@ -237,7 +237,7 @@ expect_no_files
 for signal in INT TERM; do
   case_ "SIG$signal while it renders"
   blob ../blob.nrrd
-  interrupted $signal 1 render ../blob.nrrd --output a.png --resolution 9000,9000 --sample-distance 0.01
+  interrupted $signal 1 render ../blob.nrrd --output a.png --resolution 2000,2000 --sample-distance 0.001
   expect_failure 1
   expect_error 'interrupted'
   expect_no_files
@@ -248,7 +248,7 @@ if command -v script > /dev/null; then
   blob ../blob.nrrd
   for quiet in "" --quiet; do
     script -qec "timeout -s INT 3 '$BRUME' render ../blob.nrrd --output a.png \
-      --resolution 9000,9000 --sample-distance 0.01 $quiet" /dev/null > ../bar"$quiet" < /dev/null
+      --resolution 2000,2000 --sample-distance 0.001 $quiet" /dev/null > ../bar"$quiet" < /dev/null
   done
   grep -q 'rendering \[#* *\]' ../bar || fail "expected a bar"
   ! grep -q 'rendering' ../bar--quiet || fail "expected no bar"
