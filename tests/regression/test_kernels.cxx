@@ -186,6 +186,24 @@ TYPED_TEST(Kernel, AgreesWithDoublePrecision)
   }
 }
 
+// Noise up to the grid's faces: no neighbour is like another, so each must be the right one.
+TYPED_TEST(Kernel, AgreesForNoiseUpToTheFaces)
+{
+  std::mt19937 random(2);
+  const Voxels<TypeParam> voxels(11, 10, 12, [&](int, int, int) { return random() % 100; });
+  for (bool linear : { true, false })
+  {
+    Scene scene = ball_scene(voxels);
+    scene.grid.linear = linear;
+    scene.classification.lower = 0.0;
+    scene.classification.upper = 100.0;
+    expect_all_targets_right(scene, 1e-4); // a place's rounding times a slope of 100 a voxel
+    scene.meaning = ValueMeaning::Density;
+    scene.density.extinction = 0.002;
+    expect_all_targets_right(scene, 2e-5);
+  }
+}
+
 TYPED_TEST(Kernel, AgreesForDensities)
 {
   const Voxels<TypeParam> voxels = ball_voxels<TypeParam>();
