@@ -34,8 +34,7 @@ if (BRUME_WARNINGS_AS_ERRORS)
   add_compile_options(-Werror)
 endif ()
 if (BRUME_SANITIZE)
-  # The ray kernels are compiled once for each instruction set, minutes each under sanitizers: here
-  # the oldest and one wide set stand for all, and -O1 for the build type's level.
+  # To build in good time: two of the kernels' instruction sets, and -O1 for the build type's level.
   add_compile_options(-fsanitize=${BRUME_SANITIZE} -fno-omit-frame-pointer
     -fno-sanitize-recover=all -O1)
   add_compile_definitions(
