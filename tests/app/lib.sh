@@ -224,6 +224,10 @@ interrupted() {
   pid=$!
   sleep "$seconds"
   kill -"$signal" "$pid" 2> /dev/null || fail "the program had ended before the signal"
+  # A program that does not hear it would hold up the tests.
+  local waited=0
+  while kill -0 "$pid" 2> /dev/null && [ $((waited++)) -lt 300 ]; do sleep 0.1; done
+  ! kill -KILL "$pid" 2> /dev/null || fail "expected an end within 30 seconds of the signal"
   wait "$pid"
   status=$?
 }
