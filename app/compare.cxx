@@ -229,8 +229,8 @@ void run(const Options& options)
   {
     find_preset(options.scene.preset);
   }
+  const InterruptionWatch watch; // first, so that a folder that is made here goes again
   OutputFolder folder(options.output);
-  const InterruptionWatch watch;
   const VolumeScene scene = make_volume_scene(options.scene);
   const double step = options.scene.sample_distance.value_or(0.5 * scene.voxel_edge);
 

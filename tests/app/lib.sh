@@ -214,14 +214,21 @@ bad_inputs() {
   expect_no_files
 }
 
-# interrupted SIGNAL SECONDS ARGUMENTS...: runs the program and sends it the signal when so much time
-# has passed. The program must have been at work, not done.
+# interrupted SIGNAL SECONDS ARGUMENTS...: runs the program and sends it the signal when it has
+# been at work for so much time. The program must have been at work, not done.
 interrupted() {
   local signal=$1 seconds=$2 pid
   shift 2
   command="brume $* (and $signal)"
   "$BRUME" "$@" > ../out 2> ../err < /dev/null &
   pid=$!
+  # On a busy machine a program takes seconds to begin: it has when it handles SIGTERM (bit 14).
+  local tries=0 mask=
+  while [ $((tries++)) -lt 200 ]; do
+    mask=$(sed -n 's/^SigCgt:\t*//p' "/proc/$pid/status" 2> /dev/null)
+    [ -n "$mask" ] && (((16#$mask & 0x4000) == 0)) || break
+    sleep 0.1
+  done
   sleep "$seconds"
   kill -"$signal" "$pid" 2> /dev/null || fail "the program had ended before the signal"
   # A program that does not hear it would hold up the tests.
