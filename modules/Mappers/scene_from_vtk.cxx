@@ -324,6 +324,16 @@ std::string SceneFromVTK::UpdateClassification(vtkVolumeProperty* property)
     else
     {
       rgbFunction->GetTable(c.lower, c.upper, table_nodes, c.rgb.data());
+      if (rgbFunction->GetSize() == 1 && rgbFunction->GetClamping())
+      {
+        // VTK's table is black where it hits the place of a single point.
+        double node[6];
+        rgbFunction->GetNodeValue(0, node);
+        for (int i = 0; i < 3 * table_nodes; ++i)
+        {
+          c.rgb[i] = node[1 + i % 3];
+        }
+      }
     }
   }
   if (!property->GetDisableGradientOpacity(0) && property->HasGradientOpacity(0))
