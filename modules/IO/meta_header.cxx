@@ -225,30 +225,9 @@ ScanHeader read_meta_header(const std::string& path)
   {
     h.parts.push_back({ path, lines.position() });
   }
-  else if (words[0] == "LIST")
-  {
-    while (lines.next(line))
-    {
-      if (!trimmed(line).empty())
-      {
-        h.parts.push_back({ beside(path, trimmed(line)), skip });
-      }
-    }
-  }
-  else if (words.size() >= 4 && words[0].find('%') != std::string::npos)
-  {
-    for (const std::string& name : expand_pattern(path, words))
-    {
-      h.parts.push_back({ beside(path, name), skip });
-    }
-  }
   else
   {
-    h.parts.push_back({ beside(path, data), skip });
-  }
-  if (h.more_follows && h.parts.size() > 1)
-  {
-    fail(path, "a series of volumes in several files", "name the header of one volume");
+    add_data_files(path, lines, data, words[0] == "LIST", skip, h);
   }
   h.slope = numbers(path, keys, { "ElementToIntensityFunctionSlope" }, 1, { 1 })[0];
   h.intercept = numbers(path, keys, { "ElementToIntensityFunctionOffset" }, 1, { 0 })[0];

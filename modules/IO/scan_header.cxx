@@ -1,6 +1,7 @@
 #include "scan_header.h"
 
 #include "file_access.h"
+#include "header_text.h"
 
 #include <limits>
 #include <map>
@@ -127,6 +128,38 @@ void convert_to_millimetres(ScanHeader& header, const std::string& unit)
       a *= found->second;
     }
     header.messages.push_back("lengths converted from " + unit + " to mm");
+  }
+}
+
+void add_data_files(const std::string& path, LineReader& lines, const std::string& data, bool list,
+  std::uint64_t skip, ScanHeader& header)
+{
+  const std::vector<std::string> words = split_words(data);
+  if (list)
+  {
+    std::string line;
+    while (lines.next(line))
+    {
+      if (!trimmed(line).empty())
+      {
+        header.parts.push_back({ beside(path, trimmed(line)), skip });
+      }
+    }
+  }
+  else if (words.size() >= 4 && words[0].find('%') != std::string::npos)
+  {
+    for (const std::string& name : expand_pattern(path, words))
+    {
+      header.parts.push_back({ beside(path, name), skip });
+    }
+  }
+  else
+  {
+    header.parts.push_back({ beside(path, data), skip });
+  }
+  if (header.more_follows && header.parts.size() > 1)
+  {
+    fail(path, "a series of volumes in several files", "name the header of one volume");
   }
 }
 

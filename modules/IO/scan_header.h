@@ -35,6 +35,8 @@ enum class Encoding
   Text      ///< decimal numbers between blanks
 };
 
+class LineReader;
+
 /// One stretch of data: a file and where its numbers begin.
 struct DataPart
 {
@@ -93,6 +95,12 @@ void convert_to_millimetres(ScanHeader& header, const std::string& unit);
 ScanHeader read_nifti_header(const std::string& path);
 ScanHeader read_meta_header(const std::string& path);
 ScanHeader read_nrrd_header(const std::string& path);
+
+/// Adds the files that `data` of a header names, each read from the byte `skip` on: one name, a
+/// pattern with its numbers (expand_pattern), or, for a `list`, the header's remaining lines. Throws
+/// as the readers of headers do where they hold more volumes than one.
+void add_data_files(const std::string& path, LineReader& lines, const std::string& data, bool list,
+  std::uint64_t skip, ScanHeader& header);
 
 /// Legacy VTK structured points with one array of SCALARS right behind the header, as nearly every
 /// writer makes them: VTK 9.1 fills what such a file lacks with whatever memory holds, and says
