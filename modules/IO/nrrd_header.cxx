@@ -399,7 +399,6 @@ ScanHeader read_nrrd_header(const std::string& path)
   }
   const std::uint64_t skip = skips[1] > 0 ? static_cast<std::uint64_t>(skips[1]) : 0;
   const std::string data = field(fields, "datafile");
-  const std::vector<std::string> words = split_words(data);
   if (data.empty())
   {
     h.parts.push_back({ path, lines.position() + skip });
