@@ -1,3 +1,4 @@
+#include "../support/files.h"
 #include "scan_files.h"
 
 #include "atomic_file.h"
@@ -13,36 +14,6 @@ using namespace brume;
 using scan_files::folder;
 using scan_files::load;
 using scan_files::save;
-
-namespace
-{
-
-template <typename Call>
-std::string error_of(Call call)
-{
-  try
-  {
-    call();
-  }
-  catch (const std::runtime_error& error)
-  {
-    return error.what();
-  }
-  return {};
-}
-
-std::size_t files_in(const std::string& path)
-{
-  std::size_t n = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(path))
-  {
-    (void)entry;
-    ++n;
-  }
-  return n;
-}
-
-}
 
 TEST(AtomicFile, CommitReplacesAndKeepsPermissions)
 {

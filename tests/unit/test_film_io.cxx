@@ -1,3 +1,4 @@
+#include "../support/files.h"
 #include "scan_files.h"
 
 #include "film_io.h"
@@ -43,31 +44,6 @@ Film film_of_all_values()
 bool same_bits(const std::vector<float>& a, const std::vector<float>& b)
 {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
-}
-
-template <typename Call>
-std::string error_of(Call call)
-{
-  try
-  {
-    call();
-  }
-  catch (const std::runtime_error& error)
-  {
-    return error.what();
-  }
-  return {};
-}
-
-std::size_t files_in(const std::string& path)
-{
-  std::size_t n = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(path))
-  {
-    (void)entry;
-    ++n;
-  }
-  return n;
 }
 
 }
