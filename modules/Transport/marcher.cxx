@@ -34,7 +34,7 @@ double seconds_since(std::chrono::steady_clock::time_point start)
 
 MarchCount march(const MarchTask& task)
 {
-  if (task.grid->components == 4)
+  if (task.grid->colour == VoxelColour::RGB)
   {
     return march_rgba8(task);
   }
@@ -60,9 +60,9 @@ double diagonal(const Scene& scene)
   glm::dvec3 extent;
   for (int axis = 0; axis < 3; ++axis)
   {
-    extent[axis] = scene.grid.upper(axis) - scene.grid.lower(axis);
+    extent[axis] = scene.volumes[0].grid.upper(axis) - scene.volumes[0].grid.lower(axis);
   }
-  const glm::dmat3 m(scene.data_from_index);
+  const glm::dmat3 m(scene.volumes[0].data_from_index);
   double longest = 0.0;
   for (int corner = 0; corner < 4; ++corner)
   {
@@ -91,12 +91,12 @@ struct Marcher::Cache
 
   void update_ranges(const Scene& scene, int threads)
   {
-    if (!this->ranges || this->data_revision != scene.data_revision || scene.data_revision == 0)
+    if (!this->ranges || this->data_revision != scene.volumes[0].data_revision || scene.volumes[0].data_revision == 0)
     {
-      this->ranges = scene.ranges
-        ? scene.ranges
-        : std::make_shared<BrickRanges>(measure_bricks(scene.grid, threads));
-      this->data_revision = scene.data_revision;
+      this->ranges = scene.volumes[0].ranges
+        ? scene.volumes[0].ranges
+        : std::make_shared<BrickRanges>(measure_bricks(scene.volumes[0].grid, threads));
+      this->data_revision = scene.volumes[0].data_revision;
       this->have_visible = false;
     }
   }
@@ -104,12 +104,12 @@ struct Marcher::Cache
   void update(const Scene& scene, double step, int threads)
   {
     this->update_ranges(scene, threads);
-    const bool classified = scene.meaning == ValueMeaning::Classified;
+    const bool classified = scene.volumes[0].meaning == ValueMeaning::Classified;
     const bool new_medium =
-      this->medium_revision != scene.medium_revision || scene.medium_revision == 0;
+      this->medium_revision != scene.volumes[0].medium_revision || scene.volumes[0].medium_revision == 0;
     if (classified && (!this->have_table || new_medium || this->table_step != step))
     {
-      this->table = make_lookup_table(scene.classification, step);
+      this->table = make_lookup_table(scene.volumes[0].classification, step);
       this->table_step = step;
       this->have_table = true;
     }
@@ -119,12 +119,12 @@ struct Marcher::Cache
         [&](float lower, float upper)
         {
           return classified ? this->table.can_show(lower, upper)
-                            : upper > 0.0f && scene.density.extinction > 0.0;
+                            : upper > 0.0f && scene.volumes[0].density.extinction > 0.0;
         },
         classified ? this->table.empty_value : 0.0f);
       this->have_visible = true;
     }
-    this->medium_revision = scene.medium_revision;
+    this->medium_revision = scene.volumes[0].medium_revision;
   }
 };
 
@@ -167,19 +167,19 @@ MarchStatistics Marcher::render(
   const auto start_prepare = std::chrono::steady_clock::now();
   this->Kept->update(scene, step, threads);
   const Cache& kept = *this->Kept;
-  const ShadeModel shade = prepare_shading(scene);
+  const ShadeModel shade = prepare_shading(scene, scene.volumes[0]);
   const RayMaker rays(scene, film.width, film.height);
 
   MarchTask common;
-  common.grid = &scene.grid;
-  common.meaning = scene.meaning;
+  common.grid = &scene.volumes[0].grid;
+  common.meaning = scene.volumes[0].meaning;
   common.rays = &rays;
   common.non_finite = kept.ranges->non_finite_voxels > 0;
   common.step = step;
   common.step_error = static_cast<float>(settings.step_error);
   common.film = &film;
   common.bricks = kept.visible.visible < kept.ranges->size() ? &kept.visible : nullptr;
-  if (scene.meaning == ValueMeaning::Classified)
+  if (scene.volumes[0].meaning == ValueMeaning::Classified)
   {
     common.table = &kept.table;
     common.shade = &shade;
@@ -193,12 +193,12 @@ MarchStatistics Marcher::render(
     for (int axis = 0; axis < 3; ++axis)
     {
       common.gradient_scale[axis] = static_cast<float>(
-        kept.table.gradient_table_scale / scene.classification.gradient_scale[axis]);
+        kept.table.gradient_table_scale / scene.volumes[0].classification.gradient_scale[axis]);
     }
   }
   else
   {
-    common.depth_per_value = scene.density.extinction * step;
+    common.depth_per_value = scene.volumes[0].density.extinction * step;
     common.half_depth = static_cast<float>(std::log(2.0) / common.depth_per_value);
   }
   statistics.seconds_prepare = seconds_since(start_prepare);

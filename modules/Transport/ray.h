@@ -32,18 +32,18 @@ public:
   RayMaker(const Scene& scene, int width, int height)
     : Width(width)
     , Height(height)
-    , DataFromIndex(scene.data_from_index)
-    , WorldFromIndex(scene.world_from_data * scene.data_from_index)
+    , DataFromIndex(scene.volumes[0].data_from_index)
+    , WorldFromIndex(scene.volumes[0].world_from_data * scene.volumes[0].data_from_index)
   {
     // One matrix from index space to the clip cube: far origins cancel here, in double precision,
     // rather than in every ray.
     const glm::dmat4 clip_from_index =
-      scene.camera.clip_from_world * scene.world_from_data * scene.data_from_index;
+      scene.camera.clip_from_world * scene.volumes[0].world_from_data * scene.volumes[0].data_from_index;
     this->IndexFromClip = glm::inverse(clip_from_index);
     for (int axis = 0; axis < 3; ++axis)
     {
-      this->Lower[axis] = scene.grid.lower(axis);
-      this->Upper[axis] = scene.grid.upper(axis);
+      this->Lower[axis] = scene.volumes[0].grid.lower(axis);
+      this->Upper[axis] = scene.volumes[0].grid.upper(axis);
     }
     this->SurfaceDepth = scene.surface_depth.empty() ? nullptr : scene.surface_depth.data();
   }
