@@ -78,7 +78,7 @@ struct Cropping
   /// grid.
   double lower[3] = { 0, 0, 0 };
   double upper[3] = { 0, 0, 0 };
-  /// Bit x + 3 y + 9 z tells whether the region is drawn that is the x-th along the first axis (0
+  /// A ray that runs in a plane is between the two. Bit x + 3 y + 9 z tells whether the region is drawn that is the x-th along the first axis (0
   /// before the lower plane, 1 between, 2 beyond the upper), the y-th and the z-th along the others.
   /// The same 27 bits as vtkVolumeMapper's; 0x2000 is the box in the middle.
   std::uint32_t regions = 0x2000;
@@ -154,7 +154,8 @@ struct Volume
   /// ≥ 0. In projections it multiplies the volume's share of the pixel; surfaces do not take it.
   double weight = 1.0;
   /// The values that AverageIntensity and Additive draw black and white: the range of all values of
-  /// the component, for VTK's mappers. Where the second is not above the first, all is black.
+  /// the component, for VTK's mappers. Where the second is not above the first, all is black. In
+  /// grids whose voxels carry their colour (VoxelColour) the first component is the value meant.
   double grey_range[2] = { 0.0, 1.0 };
 
   Mask mask;
@@ -223,7 +224,7 @@ struct Scene
   std::vector<Volume> volumes = std::vector<Volume>(1); ///< at least one
   Mixture mixture = Mixture::Sum;
   BlendMode blend_mode = BlendMode::Composite;
-  /// Values outside are left out of AverageIntensity.
+  /// Values outside are left out of AverageIntensity; both ends are inside.
   double average_range[2] = { -1e300, 1e300 };
   /// Values of the surfaces, in any order. None: nothing is drawn.
   std::vector<double> isosurfaces;
