@@ -78,9 +78,10 @@ struct Cropping
   /// grid.
   double lower[3] = { 0, 0, 0 };
   double upper[3] = { 0, 0, 0 };
-  /// A ray that runs in a plane is between the two. Bit x + 3 y + 9 z tells whether the region is drawn that is the x-th along the first axis (0
+  /// Bit x + 3 y + 9 z tells whether the region is drawn that is the x-th along the first axis (0
   /// before the lower plane, 1 between, 2 beyond the upper), the y-th and the z-th along the others.
-  /// The same 27 bits as vtkVolumeMapper's; 0x2000 is the box in the middle.
+  /// A ray that runs in a plane is between. The same 27 bits as vtkVolumeMapper's; 0x2000 is the box
+  /// in the middle.
   std::uint32_t regions = 0x2000;
 };
 
