@@ -33,7 +33,7 @@ ReferenceClasses::ReferenceClasses(const Classification& classification)
   else
   {
     // What a non-finite voxel stands for is settled in one place, with the marcher's table.
-    this->Empty = make_lookup_table(c, 1.0).empty_value;
+    this->Empty = make_lookup_table(c).empty_value;
     this->Columns = static_cast<int>(c.opacity.size());
     this->Rows = 1;
     for (double opacity : c.opacity)
