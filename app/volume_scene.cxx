@@ -65,7 +65,7 @@ std::vector<glm::dvec3> visible_corners(const VolumeScene& scene)
                                     : error.substr(address + 3, error.find_last_not_of("\n ") - address - 2)));
   }
   const BrickRanges& ranges = *plain->volumes[0].ranges;
-  const LookupTable table = make_lookup_table(plain->volumes[0].classification, 1.0);
+  const LookupTable table = make_lookup_table(plain->volumes[0].classification);
   const VisibleBricks bricks = find_visible_bricks(
     ranges, [&](float lower, float upper) { return table.can_show(lower, upper); },
     table.empty_value);

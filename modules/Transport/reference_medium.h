@@ -39,7 +39,7 @@ public:
     {
       const Classification& c = volume.classification;
       // What a non-finite voxel stands for is settled in one place, with the marcher's table.
-      this->EmptyValue = make_lookup_table(c, 1.0).empty_value;
+      this->EmptyValue = make_lookup_table(c).empty_value;
       for (double opacity : c.opacity)
       {
         this->Extinction.push_back(extinction_from_opacity(opacity, c.unit_distance));
