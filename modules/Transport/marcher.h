@@ -37,9 +37,6 @@ struct MarchSettings
   /// The largest error of a pixel, as a fraction of white, that may be made by ending rays early;
   /// ≥ 0. A ray is left when all that is behind could not change its pixel by more.
   double leave_error = 0.001;
-  /// Whether each ray's steps are shifted by a part of a step of its own, drawn from the pixel's place
-  /// alone: bands of steps that are too long become noise. The same picture every time.
-  bool jitter = false;
   /// What the caller expects the step to cost in accuracy; added to Film::error. ≥ 0.
   double step_error = 0.0;
   /// Rays begin within their first step at a place that differs from pixel to pixel: long steps
