@@ -60,29 +60,22 @@ struct Span
   }
 };
 
-/// The range of a table: of values, and of those that are coloured.
+/// The range of a table: of values, and of those that are coloured; `whole`: all of the data's.
 void set_range(Classification& c, const Functions& f, const double values[2],
-  const double coloured[2], const Functions* more = nullptr)
+  const double coloured[2], bool whole)
 {
   Span all;
   all.Add(values[0], values[1]);
-  const bool colours = f.gray || f.rgb;
-  if (colours)
+  if (f.gray || f.rgb)
   {
     all.Add(coloured[0], coloured[1]);
   }
-  if (f.Clamps() && (!more || more->Clamps()) && f.opacity->GetSize() > 0)
+  if (!whole && f.Clamps() && f.opacity->GetSize() > 0)
   {
     Span needed;
-    for (const Functions* functions : { &f, more })
-    {
-      if (functions)
-      {
-        needed.Add(functions->opacity, values);
-        needed.Add(functions->gray, coloured);
-        needed.Add(functions->rgb, coloured);
-      }
-    }
+    needed.Add(f.opacity, values);
+    needed.Add(f.gray, coloured);
+    needed.Add(f.rgb, coloured);
     if (needed.lower < needed.upper)
     {
       all = needed;
@@ -236,7 +229,7 @@ std::string fill_2d(
 }
 
 std::string classification_from_vtk(
-  vtkVolumeProperty* property, const GridFromVTK& grid, int volume, Classification& c)
+  vtkVolumeProperty* property, const GridFromVTK& grid, int volume, bool whole, Classification& c)
 {
   c = Classification();
   c.unit_distance = property->GetScalarOpacityUnitDistance(volume);
@@ -253,7 +246,7 @@ std::string classification_from_vtk(
   }
   const Functions f = functions_of(property, volume, shape.colour != VoxelColour::RGB);
   const double* range = grid.GetRange(shape.component);
-  set_range(c, f, range, shape.colour == VoxelColour::First ? grid.GetRange(0) : range);
+  set_range(c, f, range, shape.colour == VoxelColour::First ? grid.GetRange(0) : range, whole);
   fill(c, f, table_nodes);
   if (vtkPiecewiseFunction* gradient = gradient_function_of(property, volume))
   {
@@ -283,7 +276,7 @@ Classification label_classification_from_vtk(
   const double* coloured = shape.colour == VoxelColour::First ? grid.GetRange(0) : range;
   Classification c;
   c.unit_distance = property->GetScalarOpacityUnitDistance(0);
-  set_range(c, own, range, coloured, factor < 1.0 ? &plain : nullptr);
+  set_range(c, own, range, coloured, true);
   fill(c, own, nodes);
   vtkPiecewiseFunction* gradient = property->GetLabelGradientOpacity(label);
   if (gradient)

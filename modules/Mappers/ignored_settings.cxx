@@ -36,8 +36,8 @@ std::vector<std::string> ignored_settings(
   {
     ignored(components > 1 && !dependent && property->GetNumberOfLabels() > 0,
       "MaskInput as a label map of independent components");
-    ignored(mask.blend_factor < 1.0 && mask.blend_factor > 0.0 && two_dimensional && !dependent,
-      "MaskBlendFactor with TransferFunctionMode TF_2D");
+    ignored(property->GetNumberOfLabels() > 0 && two_dimensional && !dependent,
+      "MaskInput as a label map with TransferFunctionMode TF_2D");
     if (dependent && components == 4)
     {
       for (int label : property->GetLabelMapLabels())

@@ -129,10 +129,11 @@ std::string SceneFromVTK::UpdateMedia(vtkVolumeProperty* property, const MaskSet
     return {};
   }
   this->LastMedium = MediumKey{};
+  const bool labels = this->DrawsLabels(property, mask);
   for (int i = 0; i < count; ++i)
   {
     std::string wrong =
-      classification_from_vtk(property, this->Source, i, volumes[i].classification);
+      classification_from_vtk(property, this->Source, i, labels, volumes[i].classification);
     if (!wrong.empty())
     {
       return wrong;
@@ -148,6 +149,16 @@ std::string SceneFromVTK::UpdateMedia(vtkVolumeProperty* property, const MaskSet
   return {};
 }
 
+bool SceneFromVTK::DrawsLabels(vtkVolumeProperty* property, const MaskSettings& mask) const
+{
+  // Labels have one set of 1D functions: none for each of several independent components, and none
+  // beside a 2D function.
+  return this->Labels.GetLabels() && mask.label_map && mask.blend_factor > 0.0 &&
+    this->Source.GetNumberOfVolumes() == 1 &&
+    (property->GetTransferFunctionMode() == vtkVolumeProperty::TF_1D ||
+      this->Source.GetMeaning() != GridFromVTK::Meaning::Independent);
+}
+
 void SceneFromVTK::UpdateLabels(vtkVolumeProperty* property, const MaskSettings& mask)
 {
   for (Volume& volume : this->TheScene.volumes)
@@ -159,9 +170,7 @@ void SceneFromVTK::UpdateLabels(vtkVolumeProperty* property, const MaskSettings&
       volume.mask.classification_of_label[0] = Mask::hidden;
     }
   }
-  // Labels have one set of functions: none for each of several independent components.
-  if (!this->Labels.GetLabels() || !mask.label_map || this->TheScene.volumes.size() > 1 ||
-    mask.blend_factor <= 0.0)
+  if (!this->DrawsLabels(property, mask))
   {
     return;
   }
@@ -184,8 +193,7 @@ void SceneFromVTK::UpdateLabels(vtkVolumeProperty* property, const MaskSettings&
     }
     // Labels without any function share one: the volume's own functions, but for the gradient's,
     // which VTK keeps for label 0.
-    if (!has && volume.classification.gradient_opacity.empty() && !own_gradients &&
-      volume.classification.value_gradient.empty())
+    if (!has && volume.classification.gradient_opacity.empty() && !own_gradients)
     {
       continue;
     }

@@ -53,6 +53,7 @@ public:
 
 private:
   std::string UpdateMedia(vtkVolumeProperty* property, const MaskSettings& mask);
+  bool DrawsLabels(vtkVolumeProperty* property, const MaskSettings& mask) const;
   void UpdateLabels(vtkVolumeProperty* property, const MaskSettings& mask);
 
   Scene TheScene;

@@ -491,6 +491,8 @@ TEST(SceneFromVTK, LabelsAreDrawnWithTheirFunctionsAndTheVolumesWhereTheyHaveNon
   for (int label : { 0, 1, 2, 3, 4 })
   {
     const brume::Classification& c = classification(label);
+    EXPECT_EQ(c.lower, v.classification.lower); // as kernels want it
+    EXPECT_EQ(c.upper, v.classification.upper);
     EXPECT_NEAR(opacity(c, 110), label == 1 ? 0.31 : 0.25, 1e-3) << label;
     EXPECT_NEAR(colour(c, 100, 1), label == 3 ? 0.5 : 0.4, 1e-3) << label;
     EXPECT_EQ(c.unit_distance, 2.0);
