@@ -92,8 +92,8 @@ std::vector<glm::dvec3> visible_corners(const VolumeScene& scene)
       {
         if (bricks.distance[index] == 0)
         {
-          const glm::dvec3 lower = double(BrickRanges::edge) * glm::dvec3(x, y, z);
-          add_box(lower, glm::min(lower + double(BrickRanges::edge), last));
+          const glm::dvec3 lower = double(ranges.edge()) * glm::dvec3(x, y, z);
+          add_box(lower, glm::min(lower + double(ranges.edge()), last));
         }
       }
     }

@@ -93,6 +93,7 @@ public:
   HWY_INLINE Leaper(const VisibleBricks* bricks, const Rays& rays)
     : Distance(bricks ? bricks->distance.data() : nullptr)
     , Dims(bricks ? bricks->dims : nullptr)
+    , Shift(bricks ? bricks->shift : 0)
     , inverse{ invert(rays.delta.x), invert(rays.delta.y), invert(rays.delta.z) }
   {
   }
@@ -106,9 +107,8 @@ public:
     for (int axis = 0; axis < 3; ++axis)
     {
       const Int cell = hn::ConvertTo(int_tag, hn::Max(*p[axis], hn::Zero(float_tag)));
-      brick[axis] = hn::Min(hn::ShiftRight<3>(cell), integer(Dims[axis] - 1));
+      brick[axis] = hn::Min(hn::ShiftRightSame(cell, Shift), integer(Dims[axis] - 1));
     }
-    static_assert(BrickRanges::edge == 8, "the shift above divides by the edge");
     const Int index = (brick[2] * integer(Dims[1]) + brick[1]) * integer(Dims[0]) + brick[0];
     const Int distance = hn::GatherIndex(int_tag, Distance, index);
     const Mask leaps = hn::And(active, hn::RebindMask(float_tag, distance > integer(0)));
@@ -119,7 +119,7 @@ public:
     Real way = real(std::numeric_limits<float>::max());
     for (int axis = 0; axis < 3; ++axis)
     {
-      const Real edge = real(static_cast<float>(BrickRanges::edge));
+      const Real edge = real(static_cast<float>(1 << Shift));
       const Real high = hn::ConvertTo(float_tag, brick[axis] + distance) * edge;
       const Real low = hn::ConvertTo(float_tag, brick[axis] - distance + integer(1)) * edge;
       const Real face = select(inverse[axis] > hn::Zero(float_tag), high, low);
@@ -140,6 +140,7 @@ private:
 
   const std::int32_t* Distance;
   const int* Dims;
+  int Shift;
   Real inverse[3];
 };
 

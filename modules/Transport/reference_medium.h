@@ -62,7 +62,7 @@ public:
     std::size_t index = 0;
     for (int axis = 2; axis >= 0; --axis)
     {
-      const int brick = static_cast<int>(std::max(place[axis], 0.0)) / BrickRanges::edge;
+      const int brick = static_cast<int>(std::max(place[axis], 0.0)) >> this->Bricks.shift;
       index = index * this->Bricks.dims[axis] + std::min(brick, this->Bricks.dims[axis] - 1);
     }
     return this->Bricks.distance[index] == 0;
