@@ -82,6 +82,7 @@ std::vector<glm::dvec3> visible_corners(const VolumeScene& scene)
       corners.push_back(glm::dvec3(plain->data_from_index * place));
     }
   };
+  const glm::dvec3 begin(plain->grid.first[0], plain->grid.first[1], plain->grid.first[2]);
   const glm::dvec3 last(plain->grid.upper(0), plain->grid.upper(1), plain->grid.upper(2));
   std::size_t index = 0;
   for (int z = 0; z < bricks.dims[2]; ++z)
@@ -93,14 +94,14 @@ std::vector<glm::dvec3> visible_corners(const VolumeScene& scene)
         if (bricks.distance[index] == 0)
         {
           const glm::dvec3 lower = double(ranges.edge()) * glm::dvec3(x, y, z);
-          add_box(lower, glm::min(lower + double(ranges.edge()), last));
+          add_box(glm::max(lower, begin), glm::min(lower + double(ranges.edge()), last));
         }
       }
     }
   }
   if (corners.empty())
   {
-    add_box(glm::dvec3(0.0), last);
+    add_box(begin, last);
   }
   return corners;
 }

@@ -1,5 +1,7 @@
 #include "Transport/bricks.h"
 
+#include "Transport/sparse_bricks.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
@@ -143,6 +145,8 @@ void measure_type(const Grid& grid, BrickRanges& result)
     case VoxelType::Float32:
       measure<float>(grid, result);
       break;
+    case VoxelType::Float16: // refused by Grid::validate
+      break;
   }
 }
 
@@ -151,6 +155,10 @@ void measure_type(const Grid& grid, BrickRanges& result)
 BrickRanges measure_bricks(const Grid& grid, int threads)
 {
   grid.validate();
+  if (grid.sparse)
+  {
+    return measure_sparse_bricks(*grid.sparse, threads);
+  }
   BrickRanges result;
   for (int axis = 0; axis < 3; ++axis)
   {
