@@ -1,6 +1,7 @@
 #include "Transport/marcher.h"
 
 #include "Transport/march_task.h"
+#include "Transport/reference.h"
 #include "Transport/shading.h"
 
 #include <hwy/targets.h>
@@ -50,8 +51,26 @@ MarchCount march(const MarchTask& task)
       return march_int16(task);
     case VoxelType::Float32:
       return march_float32(task);
+    case VoxelType::Float16: // refused by Grid::validate
+      break;
   }
   return {};
+}
+
+/// Sparse grids have no kernel yet: the same steps, one after another in double precision.
+bool march_sparse(const Scene& scene, const MarchTask& task, int threads, Film& film,
+  const Progress& progress, MarchStatistics& statistics)
+{
+  for (int y = 0; y < film.height; ++y)
+  {
+    for (int x = 0; x < film.width; ++x)
+    {
+      statistics.rays += task.rays->segment(x, y).length > 0.0;
+    }
+  }
+  statistics.simd = "none: sparse grids are read in double precision, a ray at a time";
+  return render_fixed_step(
+    scene, task.step, SamplePlacement::Middle, task.leave_below, threads, film, progress);
 }
 
 /// The longest way through the grid, in the data's units.
@@ -212,7 +231,16 @@ MarchStatistics Marcher::render(
   std::atomic<int> done{ 0 };
   std::atomic<bool> aborted{ false };
   const std::thread::id caller = std::this_thread::get_id();
-  if (kept.visible.visible > 0)
+  const std::string targets = simd_targets();
+  statistics.simd = targets.substr(0, targets.find(' '));
+  if (scene.grid.sparse && kept.visible.visible > 0)
+  {
+    MarchStatistics sparse;
+    aborted = !march_sparse(scene, common, threads, film, progress, sparse);
+    ray_count = sparse.rays;
+    statistics.simd = sparse.simd;
+  }
+  else if (kept.visible.visible > 0)
   {
     arena.execute(
       [&]
@@ -262,8 +290,6 @@ MarchStatistics Marcher::render(
   statistics.bricks = kept.ranges->size();
   statistics.visible_bricks = kept.visible.visible;
   statistics.completed = !aborted;
-  const std::string targets = simd_targets();
-  statistics.simd = targets.substr(0, targets.find(' '));
   return statistics;
 }
 

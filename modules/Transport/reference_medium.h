@@ -5,6 +5,7 @@
 #include "Transport/lookup_table.h"
 #include "Transport/optics.h"
 #include "Transport/shading.h"
+#include "Transport/sparse_voxels.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 namespace brume
@@ -24,6 +26,7 @@ struct Optical
   glm::dvec3 source{ 0.0 };
 };
 
+/// T is the type of a dense grid's voxels, or SparseVoxels.
 template <class T>
 class ReferenceMedium
 {
@@ -173,13 +176,25 @@ private:
         static_cast<float>(this->EmptyValue));
   }
 
-  double voxel(int i, int j, int k, int component) const
+  double stored_voxel(int i, int j, int k, int component) const
   {
     const Grid& grid = this->TheScene.grid;
-    const std::size_t index =
-      ((static_cast<std::size_t>(k) * grid.dims[1] + j) * grid.dims[0] + i) * grid.components +
-      component;
-    const double value = static_cast<double>(this->Voxels[index]);
+    if constexpr (std::is_same_v<T, SparseVoxels>)
+    {
+      return grid.sparse->value(i, j, k);
+    }
+    else
+    {
+      const std::size_t index =
+        ((static_cast<std::size_t>(k) * grid.dims[1] + j) * grid.dims[0] + i) * grid.components +
+        component;
+      return static_cast<double>(this->Voxels[index]);
+    }
+  }
+
+  double voxel(int i, int j, int k, int component) const
+  {
+    const double value = this->stored_voxel(i, j, k, component);
     return std::isfinite(value) ? value : this->EmptyValue;
   }
 
