@@ -258,6 +258,12 @@ private:
 
 }
 
+std::array<double, 2> value_range(const SparseVoxels& voxels, int threads)
+{
+  const BrickRanges ranges = measure_sparse_bricks(voxels, threads);
+  return { { ranges.lower, ranges.upper } };
+}
+
 BrickRanges measure_sparse_bricks(const SparseVoxels& voxels, int threads)
 {
   std::size_t bricks = voxels.places().size();

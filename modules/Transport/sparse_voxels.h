@@ -128,4 +128,8 @@ private:
   std::size_t PoolBytes = 0;
 };
 
+/// The least and the largest finite voxel, the background among them; {0, −1} where none is finite.
+/// Reads every voxel once, on so many threads (0: as many as the machine has processors).
+std::array<double, 2> value_range(const SparseVoxels& voxels, int threads = 0);
+
 }
