@@ -64,8 +64,8 @@ std::vector<glm::dvec3> visible_corners(const VolumeScene& scene)
       (address == std::string::npos ? "it cannot be drawn: see brume info"
                                     : error.substr(address + 3, error.find_last_not_of("\n ") - address - 2)));
   }
-  const BrickRanges& ranges = *plain->ranges;
-  const LookupTable table = make_lookup_table(plain->classification, 1.0);
+  const BrickRanges& ranges = *plain->volumes[0].ranges;
+  const LookupTable table = make_lookup_table(plain->volumes[0].classification);
   const VisibleBricks bricks = find_visible_bricks(
     ranges, [&](float lower, float upper) { return table.can_show(lower, upper); },
     table.empty_value);
@@ -79,11 +79,12 @@ std::vector<glm::dvec3> visible_corners(const VolumeScene& scene)
       {
         place[axis] = (corner >> axis) & 1 ? upper[axis] : lower[axis];
       }
-      corners.push_back(glm::dvec3(plain->data_from_index * place));
+      corners.push_back(glm::dvec3(plain->volumes[0].data_from_index * place));
     }
   };
-  const glm::dvec3 begin(plain->grid.first[0], plain->grid.first[1], plain->grid.first[2]);
-  const glm::dvec3 last(plain->grid.upper(0), plain->grid.upper(1), plain->grid.upper(2));
+  const Grid& grid = plain->volumes[0].grid;
+  const glm::dvec3 begin(grid.first[0], grid.first[1], grid.first[2]);
+  const glm::dvec3 last(grid.upper(0), grid.upper(1), grid.upper(2));
   std::size_t index = 0;
   for (int z = 0; z < bricks.dims[2]; ++z)
   {

@@ -120,8 +120,8 @@ std::string SceneFromVTK::Update(vtkVolumeMapper* mapper, vtkVolume* volume, vtk
     return wrong;
   }
   vtkMatrix4x4* matrix = volume->GetMatrix();
-  this->TheScene.world_from_data = matrix ? to_glm(matrix) : glm::dmat4(1.0);
-  if (std::abs(glm::determinant(glm::dmat3(this->TheScene.world_from_data))) == 0.0)
+  this->TheScene.volumes[0].world_from_data = matrix ? to_glm(matrix) : glm::dmat4(1.0);
+  if (std::abs(glm::determinant(glm::dmat3(this->TheScene.volumes[0].world_from_data))) == 0.0)
   {
     return "the volume's matrix flattens it: give the prop a scale that is not 0";
   }
@@ -186,9 +186,9 @@ std::string SceneFromVTK::UpdateGrid(vtkVolumeMapper* mapper, vtkVolumeProperty*
     }
     shift[3][axis] = extent[2 * axis] + (cells ? 0.5 : 0.0);
   }
-  this->TheScene.data_from_index = to_glm(image->GetIndexToPhysicalMatrix()) * shift;
+  this->TheScene.volumes[0].data_from_index = to_glm(image->GetIndexToPhysicalMatrix()) * shift;
 
-  Grid& grid = this->TheScene.grid;
+  Grid& grid = this->TheScene.volumes[0].grid;
   grid.linear = property->GetInterpolationType() != VTK_NEAREST_INTERPOLATION;
   const DataKey key{ scalars, static_cast<unsigned long>(scalars->GetMTime()),
     static_cast<unsigned long>(image->GetMTime()), dims[0], dims[1], dims[2], cells };
@@ -201,6 +201,8 @@ std::string SceneFromVTK::UpdateGrid(vtkVolumeMapper* mapper, vtkVolumeProperty*
   bool converts = false;
   grid.type = voxel_type(scalars->GetDataType(), converts);
   grid.components = components;
+  grid.component = components - 1;
+  grid.colour = rgba ? VoxelColour::RGB : VoxelColour::Value;
   grid.cell_centred = cells;
   grid.padding_x = dims[0] == 1 ? 1 : 0;
   std::copy(dims, dims + 3, grid.dims);
@@ -242,7 +244,7 @@ std::string SceneFromVTK::UpdateGrid(vtkVolumeMapper* mapper, vtkVolumeProperty*
     grid.voxels = scalars->GetVoidPointer(0);
   }
   this->LastData = key;
-  ++this->TheScene.data_revision;
+  ++this->TheScene.volumes[0].data_revision;
   this->MeasureRange();
   return {};
 }
@@ -250,11 +252,11 @@ std::string SceneFromVTK::UpdateGrid(vtkVolumeMapper* mapper, vtkVolumeProperty*
 void SceneFromVTK::MeasureRange()
 {
   auto ranges = std::make_shared<const BrickRanges>(
-    measure_bricks(this->TheScene.grid, this->NumberOfThreads));
+    measure_bricks(this->TheScene.volumes[0].grid, this->NumberOfThreads));
   const bool some = ranges->lower <= ranges->upper; // else not one finite voxel
   this->Range[0] = some ? ranges->lower : 0.0;
   this->Range[1] = some ? ranges->upper : 0.0;
-  this->TheScene.ranges = std::move(ranges);
+  this->TheScene.volumes[0].ranges = std::move(ranges);
 }
 
 std::string SceneFromVTK::UpdateClassification(vtkVolumeProperty* property)
@@ -265,7 +267,7 @@ std::string SceneFromVTK::UpdateClassification(vtkVolumeProperty* property)
   vtkPiecewiseFunction* grayFunction = gray ? property->GetGrayTransferFunction(0) : nullptr;
   vtkColorTransferFunction* rgbFunction = gray ? nullptr : property->GetRGBTransferFunction(0);
   const MediumKey key{ property, static_cast<unsigned long>(property->GetMTime()),
-    this->TheScene.data_revision };
+    this->TheScene.volumes[0].data_revision };
   if (key == this->LastMedium)
   {
     return {};
@@ -287,7 +289,7 @@ std::string SceneFromVTK::UpdateClassification(vtkVolumeProperty* property)
   gray ? grayFunction->GetRange(colourEnds) : rgbFunction->GetRange(colourEnds);
   const bool clamped = opacity->GetClamping() &&
     (gray ? grayFunction->GetClamping() : rgbFunction->GetClamping());
-  const bool coloured = this->TheScene.grid.components == 1;
+  const bool coloured = this->TheScene.volumes[0].grid.components == 1;
   if (clamped && opacity->GetSize() > 0)
   {
     const double low = coloured ? std::min(ends[0], colourEnds[0]) : ends[0];
@@ -354,17 +356,17 @@ std::string SceneFromVTK::UpdateClassification(vtkVolumeProperty* property)
       c.gradient_opacity.clear();
     }
   }
-  this->TheScene.meaning = ValueMeaning::Classified;
-  this->TheScene.classification = std::move(c);
+  this->TheScene.volumes[0].meaning = ValueMeaning::Classified;
+  this->TheScene.volumes[0].classification = std::move(c);
   this->LastMedium = key;
-  ++this->TheScene.medium_revision;
+  ++this->TheScene.volumes[0].medium_revision;
   return {};
 }
 
 void SceneFromVTK::UpdateShading(vtkVolumeProperty* property, vtkLightCollection* lights,
   vtkCamera* camera, bool twoSidedLighting)
 {
-  Shading& shading = this->TheScene.shading;
+  Shading& shading = this->TheScene.volumes[0].shading;
   shading.enabled = property->GetShade(0) != 0;
   shading.ambient = property->GetAmbient(0);
   shading.diffuse = property->GetDiffuse(0);

@@ -37,7 +37,7 @@ nlohmann::json Effect(const char* name, bool on, const std::string& reason, doub
 nlohmann::json Effects(
   const brume::Scene& scene, const brume::MarchStatistics& march, double leave_error)
 {
-  const bool gradientOpacity = !scene.classification.gradient_opacity.empty();
+  const bool gradientOpacity = !scene.volumes[0].classification.gradient_opacity.empty();
   nlohmann::json effects = nlohmann::json::array();
   effects.push_back(Effect("absorption", march.visible_bricks > 0,
     march.visible_bricks > 0 ? "the opacity function is above 0 for values of the data"
@@ -47,8 +47,8 @@ nlohmann::json Effects(
   effects.push_back(Effect("scattering", false,
     "a vtkVolumeProperty without a medium has none: VTK's composite mode is emission and "
     "absorption"));
-  effects.push_back(Effect("gradient shading", scene.shading.enabled,
-    scene.shading.enabled ? "vtkVolumeProperty::Shade is on; not a physical term"
+  effects.push_back(Effect("gradient shading", scene.volumes[0].shading.enabled,
+    scene.volumes[0].shading.enabled ? "vtkVolumeProperty::Shade is on; not a physical term"
                           : "vtkVolumeProperty::Shade is off"));
   effects.push_back(Effect("gradient opacity", gradientOpacity,
     gradientOpacity ? "the property has a gradient opacity function; not a physical term"
@@ -108,8 +108,8 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& scene, brume::Film& film)
   settings.leave_error = LeaveShare * this->Tolerance;
   if (this->AutoAdjustSampleDistances)
   {
-    const Internals::StepKey key{ scene.data_revision, scene.medium_revision,
-      scene.shading.enabled, this->Tolerance };
+    const Internals::StepKey key{ scene.volumes[0].data_revision, scene.volumes[0].medium_revision,
+      scene.volumes[0].shading.enabled, this->Tolerance };
     if (key != this->Internal->LastStep)
     {
       const auto start = std::chrono::steady_clock::now();
@@ -163,7 +163,7 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& scene, brume::Film& film)
   statistics["bricks"] = march.bricks;
   statistics["visible_bricks"] = march.visible_bricks;
   statistics["radiometric"] =
-    !scene.shading.enabled && scene.classification.gradient_opacity.empty();
+    !scene.volumes[0].shading.enabled && scene.volumes[0].classification.gradient_opacity.empty();
   statistics["peak_memory_bytes"] = PeakMemoryBytes();
   statistics["completed"] = march.completed;
   this->Statistics = statistics.dump(2);

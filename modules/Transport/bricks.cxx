@@ -67,7 +67,7 @@ void measure(const Grid& grid, BrickRanges& result)
   {
     result.reaches_non_finite.resize(result.size());
   }
-  const T* values = static_cast<const T*>(grid.voxels) + (stride - 1);
+  const T* values = static_cast<const T*>(grid.voxels) + grid.component;
   std::atomic<std::size_t> non_finite{ 0 };
 
   // A layer of bricks is a task; each row of voxels is read once for each row of bricks it serves.

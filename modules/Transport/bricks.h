@@ -14,8 +14,8 @@ namespace brume
 /// Ranges of the values that can be met inside bricks of edge()³ cells.
 ///
 /// Brick (i, j, k) covers index space from edge·i to edge·(i + 1) along x, and so on. Its range is
-/// that of all voxels that interpolation can reach from there. For grids of 4 components the range
-/// is the last component's.
+/// that of all voxels that interpolation can reach from there. Of several components it is the
+/// range of Grid::component.
 struct BrickRanges
 {
   /// log2 of the edge: 3 for dense grids. Sparse ones in a wide box take larger bricks, so that

@@ -57,14 +57,14 @@ void Grid::validate() const
     throw std::invalid_argument("a grid needs at least 2 x 1 x 1 voxels and 4 bytes, not " +
       std::to_string(dims[0]) + " x " + std::to_string(dims[1]) + " x " + std::to_string(dims[2]));
   }
-  if (components != 1 && components != 4)
+  if (components < 1 || components > 4 || component < 0 || component >= components)
   {
-    throw std::invalid_argument(
-      "a grid has 1 or 4 components, not " + std::to_string(components));
+    throw std::invalid_argument("a grid has 1 to 4 components, and its value is one of them, not " +
+      std::to_string(component) + " of " + std::to_string(components));
   }
-  if (components == 4 && type != VoxelType::UInt8)
+  if (colour == VoxelColour::RGB && (components != 4 || type != VoxelType::UInt8))
   {
-    throw std::invalid_argument("a grid of 4 components holds 8-bit unsigned integers");
+    throw std::invalid_argument("voxels that carry colours have 4 components of 8 bits");
   }
 }
 

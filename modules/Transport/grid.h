@@ -22,6 +22,14 @@ enum class VoxelType
 /// Bytes of one component of one voxel.
 std::size_t size_of(VoxelType type);
 
+/// Where the colour of a voxel comes from.
+enum class VoxelColour
+{
+  Value, ///< the classification's colour at the value
+  First, ///< the classification's colour at the voxel's first component (two dependent components)
+  RGB,   ///< the first three components, UInt8, 255 for 1 (four dependent components)
+};
+
 /// A view of voxels: dense ones, x fastest, then y, then z, components interleaved; or sparse ones.
 ///
 /// Index space: voxel (i, j, k) sits at the point (i, j, k). Between voxels the value is trilinear,
@@ -34,8 +42,11 @@ struct Grid
   /// In place of `voxels`, which is null then: SparseVoxels::grid() fills in the rest.
   const SparseVoxels* sparse = nullptr;
   VoxelType type = VoxelType::UInt8;
-  /// 1: a scalar. 4: red, green, blue and opacity's scalar, UInt8 only.
+  /// Components of a voxel, 1 to 4.
   int components = 1;
+  /// The component that carries the value: what is classified, and what the gradient is of.
+  int component = 0;
+  VoxelColour colour = VoxelColour::Value;
   /// Voxels along x, y and z; of a sparse grid, those of the box around it. At least 2 along x
   /// (repeat the voxel to pad a thinner grid) and 1 along y and z.
   int dims[3] = { 0, 0, 0 };
@@ -62,7 +73,8 @@ struct Grid
   std::size_t bytes() const { return voxel_count() * components * size_of(type); }
 
   /// Throws std::invalid_argument for what the integrators cannot read: no memory, a size out of
-  /// range, four components that are not UInt8, two or three components, a dense grid of Float16.
+  /// range, a component that is not there, colours in voxels that are not 4 × UInt8, a dense grid of
+  /// Float16.
   void validate() const;
 };
 

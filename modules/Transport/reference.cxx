@@ -249,22 +249,22 @@ bool for_each_ray(
 template <class Work>
 void with_medium(const Scene& scene, const Work& work)
 {
-  if (scene.grid.sparse)
+  if (scene.volumes[0].grid.sparse)
   {
-    return work(ReferenceMedium<SparseVoxels>(scene));
+    return work(ReferenceMedium<SparseVoxels>(scene, scene.volumes[0]));
   }
-  switch (scene.grid.type)
+  switch (scene.volumes[0].grid.type)
   {
     case VoxelType::UInt8:
-      return work(ReferenceMedium<std::uint8_t>(scene));
+      return work(ReferenceMedium<std::uint8_t>(scene, scene.volumes[0]));
     case VoxelType::Int8:
-      return work(ReferenceMedium<std::int8_t>(scene));
+      return work(ReferenceMedium<std::int8_t>(scene, scene.volumes[0]));
     case VoxelType::UInt16:
-      return work(ReferenceMedium<std::uint16_t>(scene));
+      return work(ReferenceMedium<std::uint16_t>(scene, scene.volumes[0]));
     case VoxelType::Int16:
-      return work(ReferenceMedium<std::int16_t>(scene));
+      return work(ReferenceMedium<std::int16_t>(scene, scene.volumes[0]));
     case VoxelType::Float32:
-      return work(ReferenceMedium<float>(scene));
+      return work(ReferenceMedium<float>(scene, scene.volumes[0]));
     case VoxelType::Float16: // refused by Grid::validate
       return;
   }
@@ -291,13 +291,13 @@ ReferenceStatistics render_reference(const Scene& scene, const ReferenceSettings
       statistics.completed = for_each_ray(scene, film, settings.threads, progress,
         [&](std::size_t pixel, const RaySegment& segment)
         {
-          RayResult last = integrate_cells(medium, scene.grid, segment, 1);
+          RayResult last = integrate_cells(medium, scene.volumes[0].grid, segment, 1);
           std::uint64_t samples = last.samples;
           double change = 0.0;
           int pieces = 2;
           for (;; pieces *= 2)
           {
-            const RayResult finer = integrate_cells(medium, scene.grid, segment, pieces);
+            const RayResult finer = integrate_cells(medium, scene.volumes[0].grid, segment, pieces);
             samples += finer.samples;
             change = finer.change_from(last);
             last = finer;

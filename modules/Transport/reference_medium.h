@@ -31,18 +31,18 @@ template <class T>
 class ReferenceMedium
 {
 public:
-  explicit ReferenceMedium(const Scene& scene)
-    : TheScene(scene)
-    , Shade(prepare_shading(scene))
-    , Voxels(static_cast<const T*>(scene.grid.voxels))
-    , NeedsGradient(scene.meaning == ValueMeaning::Classified &&
-        (scene.shading.enabled || !scene.classification.gradient_opacity.empty()))
+  ReferenceMedium(const Scene& scene, const Volume& volume)
+    : TheVolume(volume)
+    , Shade(prepare_shading(scene, volume))
+    , Voxels(static_cast<const T*>(volume.grid.voxels))
+    , NeedsGradient(volume.meaning == ValueMeaning::Classified &&
+        (volume.shading.enabled || !volume.classification.gradient_opacity.empty()))
   {
-    if (scene.meaning == ValueMeaning::Classified)
+    if (volume.meaning == ValueMeaning::Classified)
     {
-      const Classification& c = scene.classification;
+      const Classification& c = volume.classification;
       // What a non-finite voxel stands for is settled in one place, with the marcher's table.
-      this->EmptyValue = make_lookup_table(c, 1.0).empty_value;
+      this->EmptyValue = make_lookup_table(c).empty_value;
       for (double opacity : c.opacity)
       {
         this->Extinction.push_back(extinction_from_opacity(opacity, c.unit_distance));
@@ -53,7 +53,7 @@ public:
     {
       this->add_up_variation();
     }
-    const glm::dmat4 world_from_index = scene.world_from_data * scene.data_from_index;
+    const glm::dmat4 world_from_index = volume.world_from_data * volume.data_from_index;
     this->WorldFromIndex = world_from_index;
     this->WorldFromGradient = glm::transpose(glm::inverse(glm::dmat3(world_from_index)));
   }
@@ -71,10 +71,10 @@ public:
     return this->Bricks.distance[index] == 0;
   }
 
-  /// The value at a place, as interpolation gives it; of 4 components the last.
+  /// The value at a place, as interpolation gives it.
   double value(const glm::dvec3& place) const
   {
-    return this->interpolated(this->inside(place), this->TheScene.grid.components - 1);
+    return this->interpolated(this->inside(place), this->TheVolume.grid.component);
   }
 
   /// How much the transfer functions go up and down between two values: 1 for a way from nothing to
@@ -85,7 +85,7 @@ public:
     {
       return 0.0;
     }
-    const Classification& c = this->TheScene.classification;
+    const Classification& c = this->TheVolume.classification;
     const std::size_t count = this->Variation.size();
     return std::abs(
       interpolate(this->Variation.data(), table_position(to, c.lower, c.upper, count)) -
@@ -96,15 +96,15 @@ public:
   Optical at(const glm::dvec3& place, const glm::dvec3& along) const
   {
     Optical result;
-    const Grid& grid = this->TheScene.grid;
+    const Grid& grid = this->TheVolume.grid;
     const glm::dvec3 p = this->inside(place);
-    const double value = this->interpolated(p, grid.components - 1);
-    if (this->TheScene.meaning == ValueMeaning::Density)
+    const double value = this->interpolated(p, grid.component);
+    if (this->TheVolume.meaning == ValueMeaning::Density)
     {
-      result.extinction = this->TheScene.density.extinction * std::max(value, 0.0);
+      result.extinction = this->TheVolume.density.extinction * std::max(value, 0.0);
       return result;
     }
-    const Classification& c = this->TheScene.classification;
+    const Classification& c = this->TheVolume.classification;
     const TablePosition position = table_position(value, c.lower, c.upper, c.opacity.size());
     result.extinction = interpolate(this->Extinction.data(), position);
     if (result.extinction <= 0.0)
@@ -113,7 +113,7 @@ public:
     }
     for (int channel = 0; channel < 3; ++channel)
     {
-      result.source[channel] = grid.components == 4
+      result.source[channel] = grid.colour == VoxelColour::RGB
         ? this->interpolated(p, channel) / 255.0
         : interpolate(c.rgb.data() + channel, position, 3);
     }
@@ -128,7 +128,7 @@ private:
   /// The place that the value at `place` is read at.
   glm::dvec3 inside(const glm::dvec3& place) const
   {
-    const Grid& grid = this->TheScene.grid;
+    const Grid& grid = this->TheVolume.grid;
     glm::dvec3 p;
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -143,7 +143,7 @@ private:
 
   void add_up_variation()
   {
-    const Classification& c = this->TheScene.classification;
+    const Classification& c = this->TheVolume.classification;
     const double most =
       std::max(*std::max_element(this->Extinction.begin(), this->Extinction.end()), 1e-300);
     this->Variation.assign(this->Extinction.size(), 0.0);
@@ -160,7 +160,7 @@ private:
 
   void find_visible()
   {
-    const Scene& scene = this->TheScene;
+    const Volume& volume = this->TheVolume;
     std::vector<bool> seen;
     for (double extinction : this->Extinction)
     {
@@ -168,9 +168,9 @@ private:
     }
     const VisibleValues values = seen.empty()
       ? VisibleValues()
-      : VisibleValues(scene.classification.lower, scene.classification.upper, seen);
+      : VisibleValues(volume.classification.lower, volume.classification.upper, seen);
     this->Bricks =
-      find_visible_bricks(scene.ranges ? *scene.ranges : measure_bricks(scene.grid),
+      find_visible_bricks(volume.ranges ? *volume.ranges : measure_bricks(volume.grid),
         [&](float lower, float upper)
         { return seen.empty() ? upper > 0.0f : values.any(lower, upper); },
         static_cast<float>(this->EmptyValue));
@@ -178,7 +178,7 @@ private:
 
   double stored_voxel(int i, int j, int k, int component) const
   {
-    const Grid& grid = this->TheScene.grid;
+    const Grid& grid = this->TheVolume.grid;
     if constexpr (std::is_same_v<T, SparseVoxels>)
     {
       return grid.sparse->value(i, j, k);
@@ -208,7 +208,7 @@ private:
   Taps taps(double p, int axis) const
   {
     Taps t;
-    const int last = this->TheScene.grid.dims[axis] - 1;
+    const int last = this->TheVolume.grid.dims[axis] - 1;
     const int low = std::min(static_cast<int>(p), last);
     const double f = p - low;
     for (int i = 0; i < 4; ++i)
@@ -243,7 +243,7 @@ private:
   /// differences come first, so that the gradient of a constant is 0 and not a rounding error.
   glm::dvec3 gradient(const glm::dvec3& p) const
   {
-    const int component = this->TheScene.grid.components - 1;
+    const int component = this->TheVolume.grid.component;
     const Taps t[3] = { this->taps(p.x, 0), this->taps(p.y, 1), this->taps(p.z, 2) };
     glm::dvec3 sum(0.0);
     for (int corner = 0; corner < 8; ++corner)
@@ -270,7 +270,7 @@ private:
   void apply_gradient(const glm::dvec3& p, const glm::dvec3& place, const glm::dvec3& along,
     Optical& result) const
   {
-    const Classification& c = this->TheScene.classification;
+    const Classification& c = this->TheVolume.classification;
     const glm::dvec3 slope = this->gradient(p);
     if (!c.gradient_opacity.empty())
     {
@@ -280,7 +280,7 @@ private:
       result.extinction *=
         std::clamp(interpolate(c.gradient_opacity.data(), position), 0.0, 1.0);
     }
-    if (this->TheScene.shading.enabled)
+    if (this->TheVolume.shading.enabled)
     {
       using scalar::Vec3;
       const glm::dvec3 normal = this->WorldFromGradient * slope;
@@ -294,7 +294,7 @@ private:
     }
   }
 
-  const Scene& TheScene;
+  const Volume& TheVolume;
   ShadeModel Shade;
   const T* Voxels;
   bool NeedsGradient;

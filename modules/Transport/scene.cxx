@@ -6,26 +6,71 @@
 namespace brume
 {
 
-void Scene::validate() const
+namespace
 {
-  this->grid.validate();
-  if (this->meaning == ValueMeaning::Density)
+
+void require(bool condition, const char* otherwise)
+{
+  if (!condition)
   {
-    if (this->grid.components != 1)
-    {
-      throw std::invalid_argument("a density is a grid of one component");
-    }
-    if (!(this->density.extinction >= 0.0) || !std::isfinite(this->density.extinction))
-    {
-      throw std::invalid_argument("the extinction must be finite and not negative");
-    }
+    throw std::invalid_argument(otherwise);
+  }
+}
+
+void validate(const Classification& c, const Grid& grid)
+{
+  if (!c.value_gradient.empty())
+  {
+    require(c.value_gradient_width >= 2 &&
+        c.value_gradient.size() % (4 * static_cast<std::size_t>(c.value_gradient_width)) == 0 &&
+        c.value_gradient.size() >= 8 * static_cast<std::size_t>(c.value_gradient_width),
+      "a transfer function of value and gradient needs whole rows of 2 nodes and more, and 2 rows");
+    require(c.gradient_upper > 0.0, "the largest gradient of a transfer function must be positive");
+    require(grid.colour == VoxelColour::Value,
+      "a transfer function of value and gradient gives the colour: the voxels cannot have theirs");
     return;
   }
-  const Classification& c = this->classification;
-  const bool has_colours = this->grid.components == 4;
-  if (c.opacity.size() < 2 || (!has_colours && c.rgb.size() != 3 * c.opacity.size()))
+  require(c.opacity.size() >= 2 &&
+      (grid.colour == VoxelColour::RGB || c.rgb.size() == 3 * c.opacity.size()),
+    "a transfer function needs at least 2 nodes, and as many colours");
+}
+
+void validate(const Volume& volume)
+{
+  volume.grid.validate();
+  require(volume.weight >= 0.0 && std::isfinite(volume.weight),
+    "a volume's weight must be finite and not negative");
+  if (volume.meaning == ValueMeaning::Density)
   {
-    throw std::invalid_argument("a transfer function needs at least 2 nodes, and as many colours");
+    require(volume.grid.components == 1, "a density is a grid of one component");
+    require(volume.density.extinction >= 0.0 && std::isfinite(volume.density.extinction),
+      "the extinction must be finite and not negative");
+    return;
+  }
+  validate(volume.classification, volume.grid);
+  for (const Classification& c : volume.label_classifications)
+  {
+    validate(c, volume.grid);
+  }
+  if (volume.mask.labels)
+  {
+    require(!volume.grid.sparse, "a sparse grid cannot have a mask");
+    for (std::uint8_t n : volume.mask.classification_of_label)
+    {
+      require(n == Mask::hidden || n <= volume.label_classifications.size(),
+        "a label of the mask is drawn with a classification that is not there");
+    }
+  }
+}
+
+}
+
+void Scene::validate() const
+{
+  require(!this->volumes.empty(), "a scene needs a volume");
+  for (const Volume& volume : this->volumes)
+  {
+    brume::validate(volume);
   }
 }
 

@@ -7,7 +7,9 @@
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -33,7 +35,7 @@ struct Classification
   double upper = 1.0;
   /// Opacity in [0, 1] of a stretch of `unit_distance`; σt = −ln(1 − opacity) / unit_distance.
   std::vector<double> opacity;
-  /// Source colour, R, G, B a node, linear. Empty for grids of 4 components, which carry theirs.
+  /// Source colour, R, G, B a node, linear. Empty for grids that carry theirs (VoxelColour::RGB).
   std::vector<double> rgb;
   /// The length that `opacity` speaks of, in the units of the data's own coordinates; > 0.
   double unit_distance = 1.0;
@@ -45,6 +47,39 @@ struct Classification
   /// What one voxel of central difference is divided by, for each axis: spacing / mean spacing
   /// gives VTK's gradient magnitude, in values per mean voxel.
   glm::dvec3 gradient_scale{ 1.0 };
+
+  /// A transfer function of value and gradient magnitude in place of all of the above: opacity and
+  /// colour, R, G, B, A a node, values from `lower` to `upper` along a row, gradient magnitudes from
+  /// 0 to `gradient_upper` from row to row; bilinear between nodes, the end's entry beyond. Empty:
+  /// none. `opacity` and `rgb` must then be empty too.
+  std::vector<double> value_gradient;
+  int value_gradient_width = 0; ///< nodes in a row; ≥ 2, and as many rows as fit, ≥ 2
+};
+
+/// How the voxels under labels are drawn: one label a voxel, on the grid's own lattice, read at the
+/// nearest voxel (labels do not interpolate).
+struct Mask
+{
+  /// As many as the grid has voxels, x fastest; the caller owns the memory. Null: no mask.
+  const std::uint8_t* labels = nullptr;
+  static constexpr std::uint8_t hidden = 255;
+  /// For each label the classification it is drawn with: 0 for Volume::classification, n for
+  /// Volume::label_classifications[n − 1], or `hidden`.
+  std::array<std::uint8_t, 256> classification_of_label{};
+};
+
+/// The parts of a volume that are drawn: boxes between planes across the grid's axes, and half
+/// spaces.
+struct Cropping
+{
+  bool enabled = false;
+  /// Two planes across each axis of index space, lower ≤ upper, in voxels.
+  double lower[3] = { 0, 0, 0 };
+  double upper[3] = { 0, 0, 0 };
+  /// Bit x + 3 y + 9 z tells whether the region is drawn that is the x-th along the first axis (0
+  /// before the lower plane, 1 between, 2 beyond the upper), the y-th and the z-th along the others.
+  /// The same 27 bits as vtkVolumeMapper's; 0x2000 is the box in the middle.
+  std::uint32_t regions = 0x2000;
 };
 
 /// Surface-like shading of classified values by the direction of their gradient, after Blinn and
@@ -96,8 +131,8 @@ enum class ValueMeaning
   Classified,
 };
 
-/// A scene of one grid.
-struct Scene
+/// One grid, where it is and what its values mean.
+struct Volume
 {
   Grid grid;
   /// The grid's brick ranges, where the caller has measured them; otherwise the marcher does.
@@ -113,6 +148,56 @@ struct Scene
   Density density;
   Classification classification;
   Shading shading;
+  /// A factor on the extinction (and so on the light sent), as vtkVolumeProperty's component weight;
+  /// ≥ 0.
+  double weight = 1.0;
+
+  Mask mask;
+  /// What labels of the mask are drawn with in place of `classification`.
+  std::vector<Classification> label_classifications;
+
+  Cropping cropping;
+  /// Half spaces of the world outside of which nothing is drawn: the points with
+  /// a x + b y + c z + d ≥ 0 stay, (a, b, c, d) a plane.
+  std::vector<glm::dvec4> clipping_planes;
+
+  /// Keys of the marcher's caches; 0 keeps nothing. Give a new number whenever the voxels or the
+  /// mask (data_revision) or their meaning (medium_revision: density, classifications, weight)
+  /// change.
+  std::uint64_t data_revision = 0;
+  std::uint64_t medium_revision = 0;
+};
+
+/// How what a ray meets becomes a pixel. All but Composite draw Scene::volumes[0] alone.
+enum class BlendMode
+{
+  /// Emission and absorption, front to back.
+  Composite,
+  /// The largest value on the ray, classified: radiance is opacity · colour, transmittance
+  /// 1 − opacity. No shading.
+  MaximumIntensity,
+  /// The smallest value, likewise.
+  MinimumIntensity,
+  /// The mean of opacity · value over the parts of the ray whose value is within average_range, as
+  /// a grey fraction of the volume's range of values, opaque. See docs/theory/optics.md.
+  AverageIntensity,
+  /// The integral of opacity · value over the ray, per unit distance, as a grey fraction of the
+  /// volume's range of values, up to 1, opaque.
+  Additive,
+  /// Surfaces where the value is one of `isosurfaces`, classified by that value, lit as Shading has
+  /// it, seen through one another by their opacity.
+  Isosurface,
+};
+
+/// What is to be drawn. Several volumes may overlap: their extinctions add up, and each sends its
+/// own light. Independent components of one grid are volumes that share its voxels.
+struct Scene
+{
+  std::vector<Volume> volumes = std::vector<Volume>(1); ///< at least one
+  BlendMode blend_mode = BlendMode::Composite;
+  double average_range[2] = { -1e300, 1e300 };
+  std::vector<double> isosurfaces;
+
   std::vector<Light> lights;
   Camera camera;
 
@@ -120,13 +205,8 @@ struct Scene
   /// from the bottom up, as many as the film has pixels; empty for none. Rays end there.
   std::vector<float> surface_depth;
 
-  /// Keys of the marcher's caches; 0 keeps nothing. Give a new number whenever the voxels (data_revision) or their
-  /// meaning (medium_revision: density, classification) change.
-  std::uint64_t data_revision = 0;
-  std::uint64_t medium_revision = 0;
-
   /// Throws std::invalid_argument for what no integrator can draw: see Grid::validate and the bounds
-  /// of Density and Classification; a density of four components, colours that are missing.
+  /// of Volume's parts; a density of several components, colours that are missing.
   void validate() const;
 };
 

@@ -9,10 +9,10 @@
 namespace brume
 {
 
-ShadeModel prepare_shading(const Scene& scene)
+ShadeModel prepare_shading(const Scene& scene, const Volume& volume)
 {
   ShadeModel model;
-  const Shading& shading = scene.shading;
+  const Shading& shading = volume.shading;
   model.enabled = shading.enabled;
   model.two_sided = shading.two_sided;
   model.specular_power = static_cast<float>(shading.specular_power);
@@ -50,7 +50,7 @@ ShadeModel prepare_shading(const Scene& scene)
   model.brightest = shading.enabled ? brightest_diffuse + brightest_specular : 1.0;
 
   // A gradient is a covector: it goes to the world by the inverse transpose.
-  const glm::dmat4 world_from_index = scene.world_from_data * scene.data_from_index;
+  const glm::dmat4 world_from_index = volume.world_from_data * volume.data_from_index;
   const glm::dmat3 covector = glm::transpose(glm::inverse(glm::dmat3(world_from_index)));
   // Only its direction counts. Its length is brought near 1, or its square would leave the range of
   // single precision for values or spacings that are very large or small.
@@ -59,7 +59,7 @@ ShadeModel prepare_shading(const Scene& scene)
   {
     largest = std::max(largest, glm::length(covector[column]));
   }
-  const double values = scene.classification.upper - scene.classification.lower;
+  const double values = volume.classification.upper - volume.classification.lower;
   const double to_unit = 1.0 / (largest * (values > 0.0 ? values : 1.0));
   for (int row = 0; row < 3; ++row)
   {

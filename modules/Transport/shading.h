@@ -39,7 +39,7 @@ struct ShadeModel
   double brightest = 1.0;
 };
 
-ShadeModel prepare_shading(const Scene& scene);
+ShadeModel prepare_shading(const Scene& scene, const Volume& volume);
 
 namespace scalar
 {

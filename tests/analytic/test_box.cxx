@@ -33,7 +33,7 @@ Stretch stretch(const Scene& scene, const View& view, const glm::dvec3& spacing,
   for (int axis = 0; axis < 3; ++axis)
   {
     const long double half =
-      0.5L * (scene.grid.upper(axis) - scene.grid.lower(axis)) * spacing[axis];
+      0.5L * (scene.volumes[0].grid.upper(axis) - scene.volumes[0].grid.lower(axis)) * spacing[axis];
     const long double d = to[axis] - from[axis];
     if (d == 0.0L)
     {
@@ -55,7 +55,7 @@ Stretch stretch(const Scene& scene, const View& view, const glm::dvec3& spacing,
   for (int axis = 0; axis < 3; ++axis)
   {
     const long double d = to[axis] - from[axis];
-    const long double centre = 0.5L * (scene.grid.upper(axis) + scene.grid.lower(axis));
+    const long double centre = 0.5L * (scene.volumes[0].grid.upper(axis) + scene.volumes[0].grid.lower(axis));
     result.begin[axis] = centre + (from[axis] + s0 * d) / spacing[axis];
     result.end[axis] = centre + (from[axis] + s1 * d) / spacing[axis];
     result.length += d * (s1 - s0) * d * (s1 - s0);
@@ -135,7 +135,7 @@ double diagonal_of(const Scene& scene, const glm::dvec3& spacing)
   glm::dvec3 d;
   for (int axis = 0; axis < 3; ++axis)
   {
-    d[axis] = (scene.grid.upper(axis) - scene.grid.lower(axis)) * spacing[axis];
+    d[axis] = (scene.volumes[0].grid.upper(axis) - scene.volumes[0].grid.lower(axis)) * spacing[axis];
   }
   return glm::length(d);
 }
@@ -153,9 +153,9 @@ void put(Scene& scene, const Place& place)
   glm::dvec3 origin(0.0);
   for (int axis = 0; axis < 3; ++axis)
   {
-    origin[axis] = place.origin * scene.grid.dims[axis] * place.spacing[axis];
+    origin[axis] = place.origin * scene.volumes[0].grid.dims[axis] * place.spacing[axis];
   }
-  scene.data_from_index = placed(place.spacing, origin);
+  scene.volumes[0].data_from_index = placed(place.spacing, origin);
 }
 
 // Transmittance within a relative 1e-5 for every step, spacing, place, projection and depth.
@@ -166,13 +166,13 @@ TYPED_TEST(DensityBox, TransmittanceIsBeerLambert)
   {
     const Ramp<TypeParam> ramp(axis);
     Scene scene;
-    scene.meaning = ValueMeaning::Density;
-    scene.grid = ramp.voxels.grid();
+    scene.volumes[0].meaning = ValueMeaning::Density;
+    scene.volumes[0].grid = ramp.voxels.grid();
     for (const Place& place : places)
     {
       put(scene, place);
       const double most = // so that no ray's optical depth is more than the one asked for
-        axis < 0 ? ramp.first : ramp.first + ramp.slope * (scene.grid.dims[axis] - 1);
+        axis < 0 ? ramp.first : ramp.first + ramp.slope * (scene.volumes[0].grid.dims[axis] - 1);
       const double voxel = std::min({ place.spacing.x, place.spacing.y, place.spacing.z });
       for (bool parallel : { false, true })
       {
@@ -182,7 +182,7 @@ TYPED_TEST(DensityBox, TransmittanceIsBeerLambert)
           scene.camera = view.camera(double(width) / height);
           for (double depth : depths)
           {
-            scene.density.extinction = depth / (most * diagonal_of(scene, place.spacing));
+            scene.volumes[0].density.extinction = depth / (most * diagonal_of(scene, place.spacing));
             const auto tau = [&](int x, int y) -> long double
             {
               const Stretch s = stretch(scene, view, place.spacing, x, y);
@@ -192,11 +192,11 @@ TYPED_TEST(DensityBox, TransmittanceIsBeerLambert)
               }
               const long double value =
                 axis < 0 ? ramp.first : ramp.first + 0.5L * ramp.slope * (s.begin[axis] + s.end[axis]);
-              return scene.density.extinction * value * s.length;
+              return scene.volumes[0].density.extinction * value * s.length;
             };
             for (double step : steps)
             {
-              ++scene.medium_revision;
+              ++scene.volumes[0].medium_revision;
               int hits = 0;
               const double worst =
                 worst_transmittance(march(scene, width, height, step * voxel), tau, &hits);
@@ -221,20 +221,20 @@ TEST(DensityBox, AThinBoxIsRightToTheFilmsLastDigit)
 {
   const Ramp<float> ramp(-1);
   Scene scene;
-  scene.meaning = ValueMeaning::Density;
-  scene.grid = ramp.voxels.grid();
+  scene.volumes[0].meaning = ValueMeaning::Density;
+  scene.volumes[0].grid = ramp.voxels.grid();
   const View view = view_of(scene, oblique, false);
   scene.camera = view.camera(double(width) / height);
   for (double depth : { 1e-6, 1e-5, 1e-3 })
   {
-    scene.density.extinction = depth / (ramp.first * diagonal_of(scene, glm::dvec3(1.0)));
+    scene.volumes[0].density.extinction = depth / (ramp.first * diagonal_of(scene, glm::dvec3(1.0)));
     const Film film = march(scene, width, height, 0.5);
     for (int y = 0; y < height; ++y)
     {
       for (int x = 0; x < width; ++x)
       {
         const long double tau =
-          scene.density.extinction * ramp.first * stretch(scene, view, glm::dvec3(1.0), x, y).length;
+          scene.volumes[0].density.extinction * ramp.first * stretch(scene, view, glm::dvec3(1.0), x, y).length;
         EXPECT_NEAR(
           1.0 - film.transmittance[0][y * width + x], static_cast<double>(-std::expm1(-tau)), 3.1e-8);
       }
@@ -249,17 +249,17 @@ TEST(DensityBox, CellsReachHalfAVoxelFarther)
   {
     const Ramp<std::uint16_t> ramp(-1);
     Scene scene;
-    scene.meaning = ValueMeaning::Density;
-    scene.grid = ramp.voxels.grid();
-    scene.grid.cell_centred = true;
-    scene.grid.linear = linear;
+    scene.volumes[0].meaning = ValueMeaning::Density;
+    scene.volumes[0].grid = ramp.voxels.grid();
+    scene.volumes[0].grid.cell_centred = true;
+    scene.volumes[0].grid.linear = linear;
     const glm::dvec3 spacing(0.5, 1.0, 2.0);
-    scene.data_from_index = placed(spacing, glm::dvec3(3.0, -7.0, 11.0));
+    scene.volumes[0].data_from_index = placed(spacing, glm::dvec3(3.0, -7.0, 11.0));
     const View view = view_of(scene, oblique, true);
     scene.camera = view.camera(double(width) / height);
-    scene.density.extinction = 5.0 / (ramp.first * diagonal_of(scene, spacing));
+    scene.volumes[0].density.extinction = 5.0 / (ramp.first * diagonal_of(scene, spacing));
     const auto tau = [&](int x, int y)
-    { return scene.density.extinction * ramp.first * stretch(scene, view, spacing, x, y).length; };
+    { return scene.volumes[0].density.extinction * ramp.first * stretch(scene, view, spacing, x, y).length; };
     for (double step : { 0.1, 0.7, 100.0 })
     {
       EXPECT_LE(worst_transmittance(march(scene, width, height, step), tau), 1e-5) << step;
@@ -273,11 +273,11 @@ TEST(DensityBox, TheOpticalDepthIsACompensatedSum)
 {
   const Voxels<float> voxels(4, 4, 4, [](int, int, int) { return 0.7f; });
   Scene scene;
-  scene.meaning = ValueMeaning::Density;
-  scene.grid = voxels.grid();
+  scene.volumes[0].meaning = ValueMeaning::Density;
+  scene.volumes[0].grid = voxels.grid();
   const View view = view_of(scene, glm::dvec3(0, 0, -1), true);
   scene.camera = view.camera(1.0);
-  scene.density.extinction = 10.0 / (0.7f * 3.0);
+  scene.volumes[0].density.extinction = 10.0 / (0.7f * 3.0);
   Film film(1, 1);
   Marcher marcher;
   MarchSettings settings;
@@ -293,8 +293,8 @@ TEST(Reference, IsBeerLambertForBoxesAndRamps)
   {
     const Ramp<std::int16_t> ramp(axis);
     Scene scene;
-    scene.meaning = ValueMeaning::Density;
-    scene.grid = ramp.voxels.grid();
+    scene.volumes[0].meaning = ValueMeaning::Density;
+    scene.volumes[0].grid = ramp.voxels.grid();
     for (const Place& place : places)
     {
       put(scene, place);
@@ -305,15 +305,15 @@ TEST(Reference, IsBeerLambertForBoxesAndRamps)
         for (double depth : { 1e-6, 1.0, 18.0 })
         {
           const double most =
-            axis < 0 ? ramp.first : ramp.first + ramp.slope * (scene.grid.dims[axis] - 1);
-          scene.density.extinction = depth / (most * diagonal_of(scene, place.spacing));
+            axis < 0 ? ramp.first : ramp.first + ramp.slope * (scene.volumes[0].grid.dims[axis] - 1);
+          scene.volumes[0].density.extinction = depth / (most * diagonal_of(scene, place.spacing));
           const auto tau = [&](int x, int y) -> long double
           {
             const Stretch s = stretch(scene, view, place.spacing, x, y);
             const long double value = axis < 0 || s.length == 0.0L
               ? ramp.first
               : ramp.first + 0.5L * ramp.slope * (s.begin[axis] + s.end[axis]);
-            return scene.density.extinction * value * s.length;
+            return scene.volumes[0].density.extinction * value * s.length;
           };
           Film film(width, height);
           const ReferenceStatistics statistics = render_reference(scene, {}, film);
@@ -337,8 +337,8 @@ TEST(ClassifiedBox, RadianceAndTransmittanceAreClosedForms)
   {
     const Ramp<std::uint8_t> ramp(-1);
     Scene scene;
-    scene.grid = ramp.voxels.grid();
-    scene.grid.cell_centred = cells;
+    scene.volumes[0].grid = ramp.voxels.grid();
+    scene.volumes[0].grid.cell_centred = cells;
     for (const Place& place : places)
     {
       put(scene, place);
@@ -350,9 +350,9 @@ TEST(ClassifiedBox, RadianceAndTransmittanceAreClosedForms)
         for (double depth : depths)
         {
           // Opacity ¼ over the distance that gives the box's diagonal this optical depth.
-          scene.classification = classify(
+          scene.volumes[0].classification = classify(
             0.0, 255.0, [](double) { return 0.25; }, [&](double) { return colour; }, 3);
-          scene.classification.unit_distance =
+          scene.volumes[0].classification.unit_distance =
             -std::log(0.75) * diagonal_of(scene, place.spacing) / depth;
           const auto tau = [&](int x, int y) {
             return depth * stretch(scene, view, place.spacing, x, y).length /
@@ -394,14 +394,14 @@ TEST(ClassifiedBox, ABoxThinnerThanAStepKeepsItsDepth)
 {
   const Ramp<float> ramp(-1);
   Scene scene;
-  scene.grid = ramp.voxels.grid();
+  scene.volumes[0].grid = ramp.voxels.grid();
   const glm::dvec3 spacing(1.0, 1.0, 1e-3);
-  scene.data_from_index = placed(spacing, glm::dvec3(0.0));
+  scene.volumes[0].data_from_index = placed(spacing, glm::dvec3(0.0));
   const View view = view_of(scene, glm::dvec3(0.2, 0.1, -1.0), false);
   scene.camera = view.camera(double(width) / height);
-  scene.classification = classify(
+  scene.volumes[0].classification = classify(
     0.0, 1.0, [](double) { return 0.5; }, [](double) { return glm::dvec3(1.0); }, 2);
-  scene.classification.unit_distance = 0.01;
+  scene.volumes[0].classification.unit_distance = 0.01;
   const auto tau = [&](int x, int y)
   { return std::log(2.0L) / 0.01L * stretch(scene, view, spacing, x, y).length; };
   EXPECT_LE(worst_transmittance(march(scene, width, height, 1.0), tau), 1e-5);

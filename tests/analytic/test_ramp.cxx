@@ -32,11 +32,11 @@ struct RampAlongZ
 
   RampAlongZ()
   {
-    scene.grid = voxels.grid();
-    scene.data_from_index = placed(glm::dvec3(1.0, 1.0, 0.5), glm::dvec3(-5.0, 2.0, 40.0));
-    scene.classification = classify(0.0, 90.0, opacity_of,
+    scene.volumes[0].grid = voxels.grid();
+    scene.volumes[0].data_from_index = placed(glm::dvec3(1.0, 1.0, 0.5), glm::dvec3(-5.0, 2.0, 40.0));
+    scene.volumes[0].classification = classify(0.0, 90.0, opacity_of,
       [](double v) { return glm::dvec3(colour_of(v), 1.0, 0.25); });
-    scene.classification.unit_distance = 1.7;
+    scene.volumes[0].classification.unit_distance = 1.7;
     View view = view_of(scene, glm::dvec3(0, 0, -1), true);
     view.half_height = 2.0;
     scene.camera = view.camera(1.0);
@@ -122,9 +122,9 @@ TEST(FixedStep, PlacementsCountWholeSteps)
 {
   const Voxels<float> voxels(4, 4, 11, [](int, int, int) { return 1.0f; });
   Scene scene;
-  scene.meaning = ValueMeaning::Density;
-  scene.density.extinction = 0.1;
-  scene.grid = voxels.grid();
+  scene.volumes[0].meaning = ValueMeaning::Density;
+  scene.volumes[0].density.extinction = 0.1;
+  scene.volumes[0].grid = voxels.grid();
   View view = view_of(scene, glm::dvec3(0, 0, -1), true);
   view.near_plane = view.distance - 5.0 - 0.75; // the grid begins 0.75 behind the near plane
   scene.camera = view.camera(1.0);

@@ -15,17 +15,17 @@ TEST(Shading, OfARampIsTheFormula)
 {
   const Voxels<float> voxels(9, 9, 9, [](int i, int, int) { return 10.0f * i; });
   Scene scene;
-  scene.grid = voxels.grid();
-  scene.data_from_index = placed(glm::dvec3(0.5, 2.0, 1.0), glm::dvec3(0.0));
-  scene.classification = classify(0.0, 80.0, [](double) { return 0.5; },
+  scene.volumes[0].grid = voxels.grid();
+  scene.volumes[0].data_from_index = placed(glm::dvec3(0.5, 2.0, 1.0), glm::dvec3(0.0));
+  scene.volumes[0].classification = classify(0.0, 80.0, [](double) { return 0.5; },
     [](double) { return glm::dvec3(0.4, 0.8, 1.0); }, 3);
   scene.camera = view_of(scene, glm::dvec3(0, 0, -1), true).camera(1.0);
-  scene.shading.enabled = true;
-  scene.shading.ambient = 0.15;
-  scene.shading.diffuse = 0.6;
-  scene.shading.specular = 0.5;
-  scene.shading.specular_power = 5.0;
-  scene.shading.two_sided = false;
+  scene.volumes[0].shading.enabled = true;
+  scene.volumes[0].shading.ambient = 0.15;
+  scene.volumes[0].shading.diffuse = 0.6;
+  scene.volumes[0].shading.specular = 0.5;
+  scene.volumes[0].shading.specular_power = 5.0;
+  scene.volumes[0].shading.two_sided = false;
   scene.lights.resize(1);
   const double s = std::sqrt(0.5);
   struct
@@ -60,10 +60,10 @@ TEST(Shading, OfARampIsTheFormula)
   // Two-sided: the camera looks from where the values rise, and the normal is turned to it.
   scene.camera = view_of(scene, glm::dvec3(-1, 0, 0), true).camera(1.0);
   scene.lights[0].direction = { -1, 0, 0 };
-  scene.shading.specular = 0.0;
+  scene.volumes[0].shading.specular = 0.0;
   for (bool two_sided : { false, true })
   {
-    scene.shading.two_sided = two_sided;
+    scene.volumes[0].shading.two_sided = two_sided;
     const Film film = march(scene, 3, 3, 0.25);
     const double opacity = 1.0 - film.transmittance[2][4];
     EXPECT_NEAR(film.radiance[2][4], opacity * (two_sided ? 0.75 : 0.15), 2e-5);

@@ -156,7 +156,7 @@ std::vector<double> from_near_plane(const Case& c)
   if (c.nearest)
   {
     // It takes the voxel before a place, not the nearest: the picture is half a voxel off.
-    moved.data_from_index = moved.data_from_index *
+    moved.volumes[0].data_from_index = moved.volumes[0].data_from_index *
       glm::translate(glm::dmat4(1.0), glm::dvec3(0.5));
   }
   brume::render_fixed_step(

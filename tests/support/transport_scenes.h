@@ -72,6 +72,8 @@ struct Voxels
     g.voxels = values.data();
     g.type = voxel_type<T>();
     g.components = components;
+    g.component = components - 1;
+    g.colour = components == 4 ? VoxelColour::RGB : VoxelColour::Value;
     std::copy(dims, dims + 3, g.dims);
     return g;
   }
@@ -134,10 +136,10 @@ inline View view_of(const Scene& scene, const glm::dvec3& forward, bool parallel
   glm::dvec3 lower, upper;
   for (int axis = 0; axis < 3; ++axis)
   {
-    lower[axis] = scene.grid.lower(axis);
-    upper[axis] = scene.grid.upper(axis);
+    lower[axis] = scene.volumes[0].grid.lower(axis);
+    upper[axis] = scene.volumes[0].grid.upper(axis);
   }
-  const glm::dmat4 world_from_index = scene.world_from_data * scene.data_from_index;
+  const glm::dmat4 world_from_index = scene.volumes[0].world_from_data * scene.volumes[0].data_from_index;
   View view;
   view.centre = glm::dvec3(world_from_index * glm::dvec4(0.5 * (lower + upper), 1.0));
   view.forward = glm::normalize(forward);

@@ -20,7 +20,7 @@ struct BoxView
 
   BoxView(const glm::dvec3& lower, const glm::dvec3& upper)
   {
-    scene.grid = voxels.grid();
+    scene.volumes[0].grid = voxels.grid();
     const glm::dvec3 half = 0.5 * (upper - lower);
     const glm::dmat4 world_from_clip = glm::scale(
       glm::translate(glm::dmat4(1.0), 0.5 * (upper + lower)), glm::dvec3(half.x, half.y, -half.z));
@@ -121,7 +121,7 @@ TEST(RayMaker, AgreesWithRaysMadeByHand)
 {
   BoxView view_box({ 0, 0, 0 }, { 1, 1, 1 });
   const glm::dvec3 spacing(0.5, 2.0, 1.25);
-  view_box.scene.data_from_index = placed(spacing, glm::dvec3(1e5, -3e4, 7e3));
+  view_box.scene.volumes[0].data_from_index = placed(spacing, glm::dvec3(1e5, -3e4, 7e3));
   for (bool parallel : { false, true })
   {
     const View view = view_of(view_box.scene, glm::dvec3(-0.4, 0.7, 0.5), parallel);
@@ -150,7 +150,7 @@ TEST(RayMaker, AgreesWithRaysMadeByHand)
           for (int axis = 0; axis < 3; ++axis)
           {
             face = std::min({ face, std::abs(end[axis]),
-              std::abs(end[axis] - view_box.scene.grid.upper(axis)) });
+              std::abs(end[axis] - view_box.scene.volumes[0].grid.upper(axis)) });
           }
           EXPECT_LT(face, 1e-8);
         }

@@ -24,11 +24,11 @@ struct Refusal : testing::Test
   Scene good(ValueMeaning meaning) const
   {
     Scene scene;
-    scene.grid = voxels.grid();
-    scene.meaning = meaning;
+    scene.volumes[0].grid = voxels.grid();
+    scene.volumes[0].meaning = meaning;
     if (meaning == ValueMeaning::Classified)
     {
-      scene.classification = classify(0.0, 160.0, [](double v) { return v / 200.0; },
+      scene.volumes[0].classification = classify(0.0, 160.0, [](double v) { return v / 200.0; },
         [](double) { return glm::dvec3(1.0); }, 5);
     }
     scene.camera = view_of(scene, glm::dvec3(0, 0, -1), true).camera(1.0);
@@ -54,14 +54,23 @@ TEST_F(Refusal, OfGrids)
 {
   for (ValueMeaning meaning : { ValueMeaning::Density, ValueMeaning::Classified })
   {
-    refuses(meaning, [](Scene& s) { s.grid.voxels = nullptr; });
-    refuses(meaning, [](Scene& s) { s.grid.dims[0] = 1; });
-    refuses(meaning, [](Scene& s) { s.grid.dims[1] = 0; });
-    refuses(meaning, [](Scene& s) { s.grid.dims[2] = -1; });
-    refuses(meaning, [](Scene& s) { s.grid.components = 3; });
-    refuses(meaning, [](Scene& s) { s.grid.components = 2; });
-    refuses(meaning, [](Scene& s) { s.grid.components = 4; s.grid.type = VoxelType::UInt16; });
-    refuses(meaning, [](Scene& s) { s.grid.dims[0] = 3; s.grid.dims[1] = s.grid.dims[2] = 1; });
+    refuses(meaning, [](Scene& s) { s.volumes[0].grid.voxels = nullptr; });
+    refuses(meaning, [](Scene& s) { s.volumes[0].grid.dims[0] = 1; });
+    refuses(meaning, [](Scene& s) { s.volumes[0].grid.dims[1] = 0; });
+    refuses(meaning, [](Scene& s) { s.volumes[0].grid.dims[2] = -1; });
+    refuses(meaning, [](Scene& s) { s.volumes[0].grid.components = 5; });
+    refuses(meaning, [](Scene& s) { s.volumes[0].grid.components = 0; });
+    refuses(meaning, [](Scene& s) { s.volumes[0].grid.component = 1; });
+    refuses(meaning, [](Scene& s) { s.volumes[0].grid.component = -1; });
+    refuses(meaning, [](Scene& s)
+      {
+        s.volumes[0].grid.colour = VoxelColour::RGB;
+        s.volumes[0].grid.components = 4;
+        s.volumes[0].grid.type = VoxelType::UInt16;
+      });
+    refuses(meaning, [](Scene& s) { s.volumes[0].weight = -1.0; });
+    refuses(meaning, [](Scene& s) { s.volumes.clear(); });
+    refuses(meaning, [](Scene& s) { s.volumes[0].grid.dims[0] = 3; s.volumes[0].grid.dims[1] = s.volumes[0].grid.dims[2] = 1; });
     refuses(meaning, [](Scene& s) { s.surface_depth.resize(3); });
   }
 }
@@ -70,15 +79,15 @@ TEST_F(Refusal, OfMeanings)
 {
   const ValueMeaning density = ValueMeaning::Density;
   const ValueMeaning classified = ValueMeaning::Classified;
-  refuses(density, [&](Scene& s) { s.grid = colours.grid(); }); // which of the four?
-  refuses(density, [](Scene& s) { s.density.extinction = nan; });
-  refuses(density, [](Scene& s) { s.density.extinction = infinity; });
-  refuses(density, [](Scene& s) { s.density.extinction = -1.0; });
-  refuses(classified, [](Scene& s) { s.classification.rgb.clear(); });
-  refuses(classified, [](Scene& s) { s.classification.opacity.clear(); });
-  refuses(classified, [](Scene& s) { s.classification.unit_distance = 0.0; });
-  refuses(classified, [](Scene& s) { s.classification.lower = s.classification.upper; });
-  refuses(classified, [](Scene& s) { s.classification.gradient_opacity = { 1.0 }; });
+  refuses(density, [&](Scene& s) { s.volumes[0].grid = colours.grid(); }); // which of the four?
+  refuses(density, [](Scene& s) { s.volumes[0].density.extinction = nan; });
+  refuses(density, [](Scene& s) { s.volumes[0].density.extinction = infinity; });
+  refuses(density, [](Scene& s) { s.volumes[0].density.extinction = -1.0; });
+  refuses(classified, [](Scene& s) { s.volumes[0].classification.rgb.clear(); });
+  refuses(classified, [](Scene& s) { s.volumes[0].classification.opacity.clear(); });
+  refuses(classified, [](Scene& s) { s.volumes[0].classification.unit_distance = 0.0; });
+  refuses(classified, [](Scene& s) { s.volumes[0].classification.lower = s.volumes[0].classification.upper; });
+  refuses(classified, [](Scene& s) { s.volumes[0].classification.gradient_opacity = { 1.0 }; });
 }
 
 TEST_F(Refusal, OfSettings)

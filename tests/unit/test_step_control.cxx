@@ -24,8 +24,8 @@ Voxels<float> ball(double softness)
 Scene scene_of(const Voxels<float>& voxels, double threshold, double opacity = 0.1)
 {
   Scene scene;
-  scene.grid = voxels.grid();
-  scene.classification = classify(0.0, 1.0,
+  scene.volumes[0].grid = voxels.grid();
+  scene.volumes[0].classification = classify(0.0, 1.0,
     [&](double v) { return opacity / (1.0 + std::exp(-(v - 0.5) * threshold)); },
     [](double v) { return glm::dvec3(1.0, 0.5 + 0.5 * v, 0.2); });
   scene.camera = view_of(scene, glm::dvec3(-0.5, 0.3, -0.9), false).camera(1.0);
@@ -56,7 +56,7 @@ TEST(ChooseStep, CountsInTheSmallestVoxelEdge)
 {
   const Voxels<float> soft = ball(8.0);
   Scene scene = scene_of(soft, 3.0);
-  scene.data_from_index = placed(glm::dvec3(0.5, 2.0, 1.0), glm::dvec3(0.0));
+  scene.volumes[0].data_from_index = placed(glm::dvec3(0.5, 2.0, 1.0), glm::dvec3(0.0));
   EXPECT_DOUBLE_EQ(smallest_voxel_edge(scene), 0.5);
   scene.camera = view_of(scene, glm::dvec3(-0.5, 0.3, -0.9), false).camera(1.0);
   EXPECT_DOUBLE_EQ(choose_step(scene, 1.0).step, 1.0);
