@@ -1,9 +1,12 @@
 #include "Transport/reference_grid.h"
 
+#include "Transport/sparse_voxels.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 namespace brume
 {
@@ -16,6 +19,7 @@ double lerp(double a, double b, double fraction)
   return a + fraction * (b - a);
 }
 
+/// T is the type of a dense grid's voxels, or SparseVoxels.
 template <class T>
 class TypedGrid final : public ReferenceGrid
 {
@@ -108,12 +112,20 @@ private:
   double voxel(int i, int j, int k, int component) const
   {
     const Grid& grid = this->TheGrid;
+    if constexpr (std::is_same_v<T, SparseVoxels>)
+    {
+      return this->finite(grid.sparse->value(i, j, k));
+    }
+    else
+    {
     const std::size_t index =
       ((static_cast<std::size_t>(k) * grid.dims[1] + j) * grid.dims[0] + i) * grid.components +
       component;
-    const double value = static_cast<double>(this->Voxels[index]);
-    return std::isfinite(value) ? value : this->EmptyValue;
+    return this->finite(static_cast<double>(this->Voxels[index]));
+    }
   }
+
+  double finite(double value) const { return std::isfinite(value) ? value : this->EmptyValue; }
 
   const Grid TheGrid;
   const T* Voxels;
@@ -124,6 +136,10 @@ private:
 
 std::unique_ptr<ReferenceGrid> ReferenceGrid::make(const Grid& grid, double empty_value)
 {
+  if (grid.sparse)
+  {
+    return std::make_unique<TypedGrid<SparseVoxels>>(grid, empty_value);
+  }
   switch (grid.type)
   {
     case VoxelType::UInt8:

@@ -53,7 +53,7 @@ std::size_t ReferenceMedium::brick(const glm::dvec3& place) const
   std::size_t index = 0;
   for (int axis = 2; axis >= 0; --axis)
   {
-    const int brick = static_cast<int>(std::max(place[axis], 0.0)) / BrickRanges::edge;
+    const int brick = static_cast<int>(std::max(place[axis], 0.0)) >> this->Bricks.shift;
     index = index * this->Ranges->dims[axis] + std::min(brick, this->Ranges->dims[axis] - 1);
   }
   return index;

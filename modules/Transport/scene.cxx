@@ -60,6 +60,7 @@ void validate(const Volume& volume)
   }
   if (volume.mask.labels)
   {
+    require(!volume.grid.sparse, "a sparse grid cannot have a mask");
     for (std::uint8_t n : volume.mask.classification_of_label)
     {
       require(n == Mask::hidden || n <= volume.label_classifications.size(),
