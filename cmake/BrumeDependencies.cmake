@@ -24,3 +24,7 @@ set_target_properties(OpenImageIO::OpenImageIO PROPERTIES
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(X11 REQUIRED) # the program asks whether a display can be opened
+
+if (BRUME_BUILD_TESTING)
+  find_package(benchmark REQUIRED) # tests/benchmarks
+endif ()
