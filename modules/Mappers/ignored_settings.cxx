@@ -10,8 +10,10 @@
 namespace brume
 {
 
-std::vector<std::string> ignored_settings(
-  vtkVolumeMapper* mapper, vtkVolume* volume, const MaskSettings& mask, int components)
+std::vector<std::string> ignored_settings(vtkVolumeMapper* mapper,
+  vtkVolume* volume,
+  const MaskSettings& mask,
+  int components)
 {
   std::vector<std::string> names;
   const auto ignored = [&names](bool is, const char* setting)
@@ -29,8 +31,7 @@ std::vector<std::string> ignored_settings(
   ignored(!known, "BlendMode SLICE_BLEND");
   ignored(!known && property->GetSliceFunction(), "SliceFunction");
   ignored(property->GetUseClippedVoxelIntensity() != 0, "UseClippedVoxelIntensity");
-  const bool two_dimensional =
-    property->GetTransferFunctionMode() == vtkVolumeProperty::TF_2D;
+  const bool two_dimensional = property->GetTransferFunctionMode() == vtkVolumeProperty::TF_2D;
   ignored(two_dimensional && dependent, "TransferFunctionMode TF_2D of dependent components");
   if (mask.image && mask.label_map)
   {

@@ -41,8 +41,8 @@ struct Twins
     const auto value = [with_nan](int i, int j, int k)
     {
       return with_nan && i % 7 == 3 && j % 5 == 0 && k % 6 == 0 && balls(i, j, k) > 0.0
-        ? std::numeric_limits<double>::quiet_NaN()
-        : balls(i, j, k);
+               ? std::numeric_limits<double>::quiet_NaN()
+               : balls(i, j, k);
     };
     topology = sparse_grids::topology_of({ { -24, -24, -48 } }, { { 80, 56, 32 } }, 0.0, value);
     topology.tiles = { { { { 3, -2, 0 } }, { { 4, 1, 1 } }, 0.75 } };
@@ -56,8 +56,7 @@ struct Twins
       }
       return in;
     };
-    topology.bricks.erase(
-      std::remove_if(topology.bricks.begin(), topology.bricks.end(), overlaps),
+    topology.bricks.erase(std::remove_if(topology.bricks.begin(), topology.bricks.end(), overlaps),
       topology.bricks.end());
     sparse = std::make_unique<SparseVoxels>(
       type, 0.0, topology, sparse_grids::filler(topology, type, value));
@@ -69,14 +68,19 @@ struct Twins
   {
     Scene scene;
     scene.volumes[0].grid = dense ? sparse_grids::dense_grid(*sparse, copy) : sparse->grid();
-    scene.volumes[0].data_from_index = placed(glm::dvec3(0.8, 1.0, 1.3), glm::dvec3(4.0, -9.0, 100.0));
-    scene.volumes[0].world_from_data = glm::rotate(glm::dmat4(1.0), 0.4, glm::dvec3(1.0, 2.0, -0.5));
+    scene.volumes[0].data_from_index =
+      placed(glm::dvec3(0.8, 1.0, 1.3), glm::dvec3(4.0, -9.0, 100.0));
+    scene.volumes[0].world_from_data =
+      glm::rotate(glm::dmat4(1.0), 0.4, glm::dvec3(1.0, 2.0, -0.5));
     scene.volumes[0].classification = classify(
-      0.0, 1.0, [](double v) { return v < 0.1 ? 0.0 : 0.6 * (v - 0.1) * (v - 0.1); },
-      [](double v) { return glm::dvec3(v, 1.0 - 0.5 * v, 0.3 + 0.4 * std::sin(5.0 * v)); }, 4097);
+      0.0,
+      1.0,
+      [](double v) { return v < 0.1 ? 0.0 : 0.6 * (v - 0.1) * (v - 0.1); },
+      [](double v) { return glm::dvec3(v, 1.0 - 0.5 * v, 0.3 + 0.4 * std::sin(5.0 * v)); },
+      4097);
     scene.volumes[0].classification.unit_distance = 2.0;
-    scene.camera = view_of(scene, glm::dvec3(-0.5, 0.3, -0.9), !perspective)
-                     .camera(double(width) / height);
+    scene.camera =
+      view_of(scene, glm::dvec3(-0.5, 0.3, -0.9), !perspective).camera(double(width) / height);
     return scene;
   }
 };
@@ -155,7 +159,8 @@ TEST_P(SparsePicture, WithVoxelsThatAreNotFinite)
   expect_alike(twins, with_gradients);
 }
 
-INSTANTIATE_TEST_SUITE_P(Types, SparsePicture,
+INSTANTIATE_TEST_SUITE_P(Types,
+  SparsePicture,
   ::testing::Values(VoxelType::Float32, VoxelType::Float16),
   [](const auto& info) { return info.param == VoxelType::Float16 ? "Half" : "Float"; });
 
