@@ -34,3 +34,7 @@ find_package(OpenVDB 10 REQUIRED COMPONENTS openvdb)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(X11 REQUIRED) # the program asks whether a display can be opened
+
+if (BRUME_BUILD_TESTING)
+  find_package(benchmark REQUIRED) # tests/benchmarks
+endif ()
