@@ -244,16 +244,20 @@ TEST(SparseReference, IsThatOfTheDenseGrid)
 TEST(SparsePictures, AreTheSameInAWideBox)
 {
   const Twins twins(VoxelType::Float32);
-  for (const BrickPlace& far : { BrickPlace{ { 3000, 1, 2 } }, BrickPlace{ { 12500, 12500, 12500 } },
-         BrickPlace{ { -12500, -9000, 12500 } } })
+  for (const BrickPlace& far : { BrickPlace{ { 3000, 1, 2 } }, BrickPlace{ { 2500, 2500, 2500 } },
+         BrickPlace{ { 12500, 12500, 12500 } }, BrickPlace{ { -12500, -9000, 12500 } } })
   {
     SparseTopology wide = twins.topology;
     wide.bricks.push_back(far);
     const SparseVoxels voxels(
       VoxelType::Float32, 0.0, wide, sparse_grids::filler(wide, VoxelType::Float32, balls));
-    EXPECT_EQ(voxels.table().directory.empty(), far[1] == 1);
+    EXPECT_FALSE(voxels.table().directory.empty());
     for (auto change : { as_density, with_gradients })
     {
+      if (change == with_gradients && std::abs(far[0]) > 3000)
+      {
+        continue; // a ray takes at most 2¹⁶ steps, which are too long then
+      }
       Scene near = twins.scene(true, false);
       Scene box = near;
       box.volumes[0].grid = voxels.grid();
@@ -266,12 +270,20 @@ TEST(SparsePictures, AreTheSameInAWideBox)
         glm::translate(near.volumes[0].data_from_index, shift);
       change(near);
       change(box);
-      MarchStatistics statistics;
-      const Film a = march(near, width, height, 0.4);
-      const Film b = march(box, width, height, 0.4, 0.0, 0, &statistics);
-      EXPECT_LE(statistics.bricks, 1u << 15);
-      // Steps begin elsewhere; and at 100 000 voxels single precision tells 1/128 of a voxel.
-      EXPECT_LE(difference(a, b), 0.02);
+      Film films[2] = { Film(width, height), Film(width, height) };
+      for (const Scene* scene : { &near, &box })
+      {
+        MarchSettings settings;
+        settings.rule = StepRule::Cells; // exact for densities, wherever steps would begin
+        settings.step = 0.6;
+        const MarchStatistics statistics =
+          Marcher().render(*scene, settings, films[scene == &box]);
+        EXPECT_LE(statistics.bricks, 1u << 15);
+      }
+      // At 100 000 voxels single precision tells 1/128 of a voxel. Steps of classified values begin
+      // elsewhere.
+      EXPECT_LE(difference(films[0], films[1]), change == as_density ? 0.003 : 0.03)
+        << far[0] << ' ' << (change == as_density);
     }
   }
 }
