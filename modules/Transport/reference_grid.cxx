@@ -153,6 +153,8 @@ std::unique_ptr<ReferenceGrid> ReferenceGrid::make(const Grid& grid, double empt
       return std::make_unique<TypedGrid<std::int16_t>>(grid, empty_value);
     case VoxelType::Float32:
       return std::make_unique<TypedGrid<float>>(grid, empty_value);
+    case VoxelType::Float16: // refused by Grid::validate
+      break;
   }
   return nullptr;
 }
