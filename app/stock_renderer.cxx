@@ -18,6 +18,7 @@
 #include "vtkRenderer.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkVolume.h"
+#include "vtkVolumeMapper.h"
 
 #include <algorithm>
 #include <chrono>
@@ -156,9 +157,9 @@ double StockRenderer::render()
   const auto start = Internals::Clock::now();
   in.Window->Render();
   InterruptionWatch::check(in.Scene->options.input.c_str());
+  in.Window->WaitForCompletion();
   if (in.Kind == MapperKind::Gpu)
   {
-    in.Window->WaitForCompletion();
     in.Seconds = std::chrono::duration<double>(Internals::Clock::now() - start).count();
   }
   if (!in.Error.empty())
@@ -255,6 +256,11 @@ Film StockRenderer::film()
 int StockRenderer::threads() const
 {
   return this->Internal->FixedPoint ? this->Internal->FixedPoint->GetNumberOfThreads() : 1;
+}
+
+vtkVolumeMapper* StockRenderer::mapper()
+{
+  return vtkVolumeMapper::SafeDownCast(this->Internal->Volume->GetMapper());
 }
 
 std::string StockRenderer::device()

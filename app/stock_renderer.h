@@ -9,6 +9,8 @@
 
 #include <memory>
 
+class vtkVolumeMapper;
+
 namespace brume::app
 {
 
@@ -24,7 +26,8 @@ public:
   ~StockRenderer();
 
   /// One render; returns the seconds of the volume's render alone: for the CPU mapper from its own
-  /// start and end events, for the GPU mapper the frame until the card has finished.
+  /// start and end events, for the GPU mapper the frame until the card has finished. Nothing of the
+  /// frame is still being drawn when it returns.
   double render();
 
   /// The last render over the scene's background.
@@ -37,6 +40,8 @@ public:
   int threads() const;
   /// Name of the OpenGL device.
   std::string device();
+  /// VTK's mapper, for settings that a scene does not have.
+  vtkVolumeMapper* mapper();
 
 private:
   struct Internals;

@@ -1,5 +1,5 @@
-# How tests are declared. Every test carries one label, unit, analytic, regression or app; a test
-# that cannot run here exits with 77 and says why on a line that begins with "skipped: ", and CTest
+# How tests are declared. Every test carries one label, unit, analytic, regression, app or benchmark;
+# a test that cannot run here exits with 77 and says why on a line that begins with "skipped: ", and CTest
 # counts it as skipped.
 find_package(GTest REQUIRED)
 
@@ -19,14 +19,15 @@ function (_brume_set_test name label)
   endif ()
 endfunction ()
 
-# brume_add_test(NAME LABEL unit|analytic|regression|app
-#   SOURCES … LIBRARIES … [DISPLAY] [SERIAL])
+# brume_add_test(NAME LABEL unit|analytic|regression|app|benchmark
+#   SOURCES … LIBRARIES … [ARGUMENTS …] [DISPLAY] [SERIAL])
 #
-# One GoogleTest program and one CTest test of the same name. DISPLAY runs it under a private
+# One GoogleTest program (or one with a main() of its own) and one CTest test of the same name, which
+# calls it with the ARGUMENTS. DISPLAY runs it under a private
 # virtual display where the machine has none, one such test at a time. SERIAL runs it while no other
 # test does: for tests that take the time.
 function (brume_add_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "DISPLAY;SERIAL" "LABEL" "SOURCES;LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "DISPLAY;SERIAL" "LABEL" "SOURCES;LIBRARIES;ARGUMENTS")
   add_executable(${name} ${arg_SOURCES})
   set_target_properties(${name} PROPERTIES
     RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/tests")
@@ -39,7 +40,7 @@ function (brume_add_test name)
   if (arg_DISPLAY)
     set(launcher "${PROJECT_SOURCE_DIR}/scripts/with-display")
   endif ()
-  add_test(NAME ${name} COMMAND ${launcher} $<TARGET_FILE:${name}>)
+  add_test(NAME ${name} COMMAND ${launcher} $<TARGET_FILE:${name}> ${arg_ARGUMENTS})
   _brume_set_test(${name} "${arg_LABEL}")
   if (arg_DISPLAY)
     set_tests_properties(${name} PROPERTIES RESOURCE_LOCK display)

@@ -1,5 +1,7 @@
 #include "Transport/bricks.h"
 
+#include "Transport/sparse_bricks.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
@@ -58,7 +60,7 @@ struct RangeOf
 template <class T>
 void measure(const Grid& grid, BrickRanges& result)
 {
-  constexpr int edge = BrickRanges::edge;
+  const int edge = result.edge();
   const int* n = grid.dims;
   const int stride = grid.components;
   if constexpr (std::is_floating_point_v<T>)
@@ -143,6 +145,8 @@ void measure_type(const Grid& grid, BrickRanges& result)
     case VoxelType::Float32:
       measure<float>(grid, result);
       break;
+    case VoxelType::Float16: // refused by Grid::validate
+      break;
   }
 }
 
@@ -151,10 +155,14 @@ void measure_type(const Grid& grid, BrickRanges& result)
 BrickRanges measure_bricks(const Grid& grid, int threads)
 {
   grid.validate();
+  if (grid.sparse)
+  {
+    return measure_sparse_bricks(*grid.sparse, threads);
+  }
   BrickRanges result;
   for (int axis = 0; axis < 3; ++axis)
   {
-    result.dims[axis] = (grid.dims[axis] - 1) / BrickRanges::edge + 1;
+    result.dims[axis] = (grid.dims[axis] - 1) / result.edge() + 1;
   }
   result.minimum.resize(result.size());
   result.maximum.resize(result.size());
@@ -174,6 +182,7 @@ VisibleBricks find_visible_bricks(const BrickRanges& ranges,
   const std::function<bool(float, float)>& can_show, float empty_value)
 {
   VisibleBricks result;
+  result.shift = ranges.shift;
   std::copy(ranges.dims, ranges.dims + 3, result.dims);
   const int nx = ranges.dims[0];
   const int ny = ranges.dims[1];

@@ -15,6 +15,11 @@ Film::Film(int w, int h)
     throw std::invalid_argument("a film needs a positive width and height, not " +
       std::to_string(w) + " x " + std::to_string(h));
   }
+  clear();
+}
+
+void Film::clear()
+{
   for (int c = 0; c < 3; ++c)
   {
     radiance[c].assign(size(), 0.0f);

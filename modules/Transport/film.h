@@ -35,6 +35,9 @@ struct Film
   /// height that is not positive.
   Film(int width, int height);
 
+  /// Makes the picture empty again, in the memory that it has.
+  void clear();
+
   std::size_t size() const { return static_cast<std::size_t>(width) * height; }
 };
 

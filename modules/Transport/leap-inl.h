@@ -43,9 +43,9 @@ public:
     for (int axis = 0; axis < 3; ++axis)
     {
       const Int cell = hn::ConvertTo(int_tag, hn::Max(*p[axis], hn::Zero(float_tag)));
-      brick[axis] = hn::Min(hn::ShiftRight<3>(cell), integer(Bricks->dims[axis] - 1));
+      brick[axis] =
+        hn::Min(hn::ShiftRightSame(cell, Bricks->shift), integer(Bricks->dims[axis] - 1));
     }
-    static_assert(BrickRanges::edge == 8, "the shift above divides by the edge");
     const Int index =
       (brick[2] * integer(Bricks->dims[1]) + brick[1]) * integer(Bricks->dims[0]) + brick[0];
     const Int distance = hn::GatherIndex(int_tag, Bricks->distance.data(), index);
@@ -57,7 +57,7 @@ public:
     Real way = real(std::numeric_limits<float>::max());
     for (int axis = 0; axis < 3; ++axis)
     {
-      const Real edge = real(static_cast<float>(BrickRanges::edge));
+      const Real edge = real(static_cast<float>(1 << Bricks->shift));
       const Real high = hn::ConvertTo(float_tag, brick[axis] + distance) * edge;
       const Real low = hn::ConvertTo(float_tag, brick[axis] - distance + integer(1)) * edge;
       const Real face = select(Inverse[axis] > hn::Zero(float_tag), high, low);

@@ -38,6 +38,7 @@ public:
     state.end = rays.end;
     std::uint64_t samples = 0;
     bool fresh = true; // the values before this step are not known
+    bool empty = true; // nothing was met in the last steps: look for bricks to leap over
     for (;;)
     {
       Mask active = state.step < state.end;
@@ -45,7 +46,7 @@ public:
       {
         return samples;
       }
-      if (leaper.leaps())
+      if (empty && leaper.leaps())
       {
         const Real leap = leap_from(leaper, rays, state.step);
         const Mask leaping = hn::And(active, leap > hn::Zero(float_tag));
@@ -61,6 +62,7 @@ public:
         samples += begin(rays, state, active);
         fresh = false;
       }
+      empty = true;
       Real positions[samples_between_leaps];
       Real values[samples_between_leaps];
       for (int i = 0; i < samples_between_leaps; ++i)
@@ -76,7 +78,7 @@ public:
           return samples;
         }
         samples += hn::CountTrue(float_tag, active);
-        pass(rays, active, Table.position(values[i]), state, gathered);
+        empty &= !pass(rays, active, Table.position(values[i]), state, gathered);
         const Mask leave = hn::And(active, gathered.transmittance < real(Task.leave_below));
         gathered.left = hn::Or(gathered.left, leave);
         state.end = hn::IfThenZeroElse(leave, state.end);
@@ -201,7 +203,8 @@ private:
     return result;
   }
 
-  HWY_INLINE void pass(const Rays& rays,
+  /// Takes a step. Returns whether there was anything in it.
+  HWY_INLINE bool pass(const Rays& rays,
     Mask active,
     Real value,
     State& state,
@@ -214,7 +217,7 @@ private:
     estimate_error(value, depth, state, gathered);
     if (hn::AllFalse(float_tag, depth > hn::Zero(float_tag)))
     {
-      return;
+      return false;
     }
     const Real centre = hn::MulAdd(step.centre, length, begin);
     Vec3<Real> colour = step.matter.colour;
@@ -237,6 +240,7 @@ private:
     gathered.optical_depth.add(depth);
     gathered.transmittance = gathered.transmittance - weight;
     gathered.note_half_way(hn::And(active, gathered.transmittance < real(0.5f)), rays, centre);
+    return true;
   }
 
   /// Adds an estimate of how much the step's optical depth is off, as it dims the pixel: a bend of

@@ -253,7 +253,7 @@ MarchStatistics Marcher::render(
 
   MarchStatistics statistics;
   // Reset the film: rays that miss the grid do not write.
-  film = Film(film.width, film.height);
+  film.clear();
   const int threads =
     settings.threads > 0 ? settings.threads : tbb::info::default_concurrency();
   tbb::task_arena arena(threads);

@@ -70,7 +70,8 @@ public:
   /// Whether a ray has at most one stretch, which segment() gives.
   bool simple() const { return this->Simple; }
 
-private:
+  /// What the rays of one volume are made from: for kernels that make many at once, as segment()
+  /// does.
   struct Frame
   {
     const Volume* volume = nullptr;
@@ -81,7 +82,13 @@ private:
     double upper[3];
     std::vector<glm::dvec4> planes; ///< clipping planes in index space
   };
+  const Frame& frame(std::size_t volume) const { return this->Frames[volume]; }
+  int width() const { return this->Width; }
+  int height() const { return this->Height; }
+  /// Device depth of the nearest surface of each pixel; null for none.
+  const float* surface_depth() const { return this->SurfaceDepth; }
 
+private:
   /// Cuts [begin, end] to the box. Returns false for a miss.
   static bool clip_to_box(const Frame& frame, const RayWay& way, double& begin, double& end);
   static bool clip_to_planes(const Frame& frame, const RayWay& way, double& begin, double& end);

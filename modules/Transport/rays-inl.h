@@ -108,6 +108,14 @@ public:
     {
       return false;
     }
+#if HWY_TARGET != HWY_SCALAR
+    if (this->Task.rays->simple())
+    {
+      ++this->Next;
+      hits = this->make_simple(rays);
+      return true;
+    }
+#endif
     HWY_ALIGN float start[lane_count] = {};
     HWY_ALIGN float end[lane_count] = {};
     HWY_ALIGN float offset[lane_count] = {};
@@ -205,6 +213,138 @@ private:
     inside = static_cast<float>(stretch.volumes >> k & 1);
     return segment.length > 0.0;
   }
+
+#if HWY_TARGET != HWY_SCALAR
+  using DoubleTag = hn::Repartition<double, FloatTag>;
+  using Double = hn::Vec<DoubleTag>;
+
+  /// The only stretch of each ray: RayMaker::segment, for half a packet of doubles at a time.
+  /// Returns the number of rays that meet the volume.
+  int make_simple(Rays& rays) const
+  {
+    HWY_ALIGN double x[lane_count], y[lane_count], far[lane_count], skipped[lane_count];
+    const float* surface = this->Task.rays->surface_depth();
+    for (int lane = 0; lane < lane_count; ++lane)
+    {
+      const bool here = this->in_tile(lane);
+      const int px = here ? this->pixel_x(lane) : this->Task.x1 - 1;
+      const int py = here ? this->pixel_y(lane) : this->Task.y1 - 1;
+      x[lane] = px;
+      y[lane] = py;
+      far[lane] = 1.0;
+      if (surface)
+      {
+        const auto pixel = static_cast<std::size_t>(py) * this->Task.rays->width() + px;
+        far[lane] = std::min(1.0, double(surface[pixel]));
+      }
+      far[lane] = here ? far[lane] : -1.0; // a ray of no length
+      skipped[lane] = this->Task.jitter ? this->jitter(lane) : 0.0;
+    }
+    const DoubleTag d;
+    HalfRays half[2];
+    for (int i = 0; i < 2; ++i)
+    {
+      const int first = i * (lane_count / 2);
+      half[i] = this->make_half(hn::Load(d, x + first),
+        hn::Load(d, y + first),
+        hn::Load(d, far + first),
+        hn::Load(d, skipped + first));
+    }
+    rays.lines[0] = { { join(half, 0), join(half, 1), join(half, 2) },
+      { join(half, 3), join(half, 4), join(half, 5) } };
+    rays.start = join(half, 6);
+    rays.end = join(half, 7);
+    rays.offset = join(half, 8);
+    rays.step_world = join(half, 9);
+    rays.scale[0] = rays.inside[0] = real(1.0f);
+    return static_cast<int>(hn::CountTrue(float_tag, rays.end > hn::Zero(float_tag)));
+  }
+
+  /// Begin, delta (x, y, z), start, end, offset, length of a step in world units.
+  struct HalfRays
+  {
+    Double value[10];
+  };
+
+  static HWY_INLINE Real join(const HalfRays half[2], int i)
+  {
+    const hn::Rebind<float, DoubleTag> narrow;
+    return hn::Combine(
+      float_tag, hn::DemoteTo(narrow, half[1].value[i]), hn::DemoteTo(narrow, half[0].value[i]));
+  }
+
+  HWY_INLINE HalfRays make_half(Double x, Double y, Double far, Double skipped) const
+  {
+    const DoubleTag d;
+    const auto set = [d](double value) { return hn::Set(d, value); };
+    const Double zero = hn::Zero(d);
+    const Double one = set(1.0);
+    const RayMaker::Frame& frame = this->Task.rays->frame(0);
+    const glm::dmat4& m = frame.index_from_clip;
+    const Double ndc_x = hn::MulSub(x + x + one, set(1.0 / this->Task.rays->width()), one);
+    const Double ndc_y = hn::MulSub(y + y + one, set(1.0 / this->Task.rays->height()), one);
+    Double near_point[4];
+    Double far_point[4];
+    for (int i = 0; i < 4; ++i)
+    {
+      const Double middle =
+        hn::MulAdd(set(m[0][i]), ndc_x, hn::MulAdd(set(m[1][i]), ndc_y, set(m[3][i])));
+      near_point[i] = middle - set(m[2][i]);
+      far_point[i] = hn::MulAdd(set(m[2][i]), far, middle);
+    }
+    const Double near_scale = one / near_point[3];
+    const Double far_scale = one / far_point[3];
+    Double from[3];
+    Double way[3];
+    Double begin = zero;
+    Double end = one;
+    auto hit = far > set(-1.0);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      from[axis] = near_point[axis] * near_scale;
+      way[axis] = hn::MulSub(far_point[axis], far_scale, from[axis]);
+      const Double to_lower = set(frame.lower[axis]) - from[axis];
+      const Double to_upper = set(frame.upper[axis]) - from[axis];
+      const auto still = way[axis] == zero;
+      const Double inverse = one / hn::IfThenElse(still, one, way[axis]);
+      const Double a = to_lower * inverse;
+      const Double b = to_upper * inverse;
+      begin = hn::IfThenElse(still, begin, hn::Max(begin, hn::Min(a, b)));
+      end = hn::IfThenElse(still, end, hn::Min(end, hn::Max(a, b)));
+      const auto outside = hn::Or(to_lower > zero, to_upper < zero);
+      hit = hn::AndNot(hn::And(still, outside), hit);
+    }
+    const auto length = [&](const glm::dmat3& to)
+    {
+      Double square = zero;
+      for (int i = 0; i < 3; ++i)
+      {
+        const Double component = hn::MulAdd(
+          set(to[0][i]), way[0], hn::MulAdd(set(to[1][i]), way[1], set(to[2][i]) * way[2]));
+        square = hn::MulAdd(component, component, square);
+      }
+      return hn::Sqrt(square);
+    };
+    const Double whole = length(frame.data_from_index);
+    const Double world = length(frame.world_from_index);
+    hit = hn::And(hit, hn::And(begin < end, hn::And(whole > zero, whole < set(1e300))));
+    const Double part = set(this->Task.step) / hn::IfThenElse(hit, whole, one); // a step
+    HalfRays rays;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const Double delta = way[axis] * part;
+      rays.value[axis] =
+        hn::IfThenElseZero(hit, hn::MulAdd(way[axis], begin, from[axis]) - delta * skipped);
+      rays.value[3 + axis] = hn::IfThenElseZero(hit, delta);
+    }
+    rays.value[6] = skipped;
+    rays.value[7] = hn::IfThenElseZero(hit, hn::MulAdd(end - begin, whole * set(1.0 / this->Task.step), skipped));
+    rays.value[8] = hn::IfThenElseZero(hit, world * (begin - skipped * part));
+    rays.value[9] = hn::IfThenElseZero(hit, world * part);
+    return rays;
+  }
+
+#endif
 
   /// The part of the first step that is left out, in [0, 1): even over the pixels of a
   /// neighbourhood.

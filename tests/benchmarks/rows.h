@@ -1,0 +1,19 @@
+// Every row of the table. Each function adds its own.
+#pragma once
+
+#include "scenes.h"
+#include "table.h"
+
+#include <vector>
+
+namespace benchmarks
+{
+
+/// Pictures against those of VTK's CPU mapper.
+void add_render_rows(Scenes& scenes, std::vector<Row>& rows);
+/// Against the machine: threads, fetches.
+void add_machine_rows(Scenes& scenes, std::vector<Row>& rows);
+/// Large and sparse volumes, and memory.
+void add_memory_rows(Scenes& scenes, std::vector<Row>& rows);
+
+}
