@@ -169,6 +169,7 @@ brume::Scene* vtkBrumeVolumeMapper::UpdateScene(
   }
   brume::Scene& together = this->Internal->Together;
   together = *scene;
+  together.mixture = brume::Mixture::Sum;
   for (vtkVolume* volume : others)
   {
     auto* mapper = vtkBrumeVolumeMapper::SafeDownCast(volume->GetMapper());
@@ -320,7 +321,7 @@ void vtkBrumeVolumeMapper::ResetClippingRange(vtkVolume* volume, vtkCamera* came
 
 void vtkBrumeVolumeMapper::WarnOfIgnoredSettings(vtkVolume* volume, int components)
 {
-  this->IgnoredSettings = brume::ignored_settings(this, volume,
+  this->IgnoredSettings = brume::ignored_settings(volume,
     { this->Internal->Mask, this->MaskType == LabelMapMaskType, this->MaskBlendFactor },
     components);
   this->AppendIgnoredSettings(volume, this->IgnoredSettings);

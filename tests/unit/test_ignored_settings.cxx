@@ -127,14 +127,6 @@ std::vector<Ignored> all_ignored()
     { "GradientOpacityRangeType",
       [](Stage& s) { s.mapper->SetGradientOpacityRangeType(vtkBrumeRayMarchMapper::NATIVE); },
       nothing },
-    { "BlendMode SLICE_BLEND", [](Stage& s) { s.mapper->SetBlendModeToSlice(); }, nothing },
-    { "SliceFunction",
-      [](Stage& s)
-      {
-        s.mapper->SetBlendModeToSlice();
-        s.property()->SetSliceFunction(vtkNew<vtkPlane>().Get());
-      },
-      nothing },
     { "UseClippedVoxelIntensity",
       [](Stage& s) { s.property()->UseClippedVoxelIntensityOn(); }, nothing },
     { "TransferFunctionMode TF_2D of dependent components",
