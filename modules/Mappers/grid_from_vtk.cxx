@@ -233,8 +233,8 @@ void GridFromVTK::MeasureRanges(int threads)
   {
     this->Ranges[c].reset();
     this->Range[c][0] = this->Range[c][1] = 0.0;
-    // The colours of RGBOpacity are read as they are: nobody asks for their range.
-    if (c >= this->TheGrid.components || (this->TheMeaning == Meaning::RGBOpacity && c < 3))
+    // Of RGBOpacity the value and, for projections, the first colour are asked for.
+    if (c >= this->TheGrid.components || (this->TheMeaning == Meaning::RGBOpacity && c % 3))
     {
       continue;
     }

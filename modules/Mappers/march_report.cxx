@@ -26,8 +26,8 @@ bool any(const Scene& scene, Condition condition)
 
 bool shades(const Scene& scene)
 {
-  const bool lit =
-    scene.blend_mode == BlendMode::Composite || scene.blend_mode == BlendMode::Isosurface;
+  const bool lit = scene.blend_mode == BlendMode::Composite ||
+    scene.blend_mode == BlendMode::Isosurface || scene.blend_mode == BlendMode::Slice;
   return lit && any(scene, [](const Volume& v) { return v.shading.enabled; });
 }
 
@@ -66,6 +66,8 @@ const char* blend_mode_name(BlendMode mode)
       return "additive";
     case BlendMode::Isosurface:
       return "isosurface";
+    case BlendMode::Slice:
+      return "slice";
     default:
       return "composite";
   }
@@ -73,8 +75,9 @@ const char* blend_mode_name(BlendMode mode)
 
 bool is_radiometric(const Scene& scene, bool window_level)
 {
-  return scene.blend_mode == BlendMode::Composite && !window_level && !shades(scene) &&
-         !has_gradient_opacity(scene);
+  const bool components = scene.volumes.size() > 1 && scene.mixture == Mixture::Components;
+  return scene.blend_mode == BlendMode::Composite && !components && !window_level && !shades(scene) &&
+    !has_gradient_opacity(scene);
 }
 
 nlohmann::json effects_of(const Scene& scene,
@@ -111,9 +114,10 @@ nlohmann::json effects_of(const Scene& scene,
   effects.push_back(effect("several volumes",
     composite && scene.volumes.size() > 1,
     std::to_string(scene.volumes.size()) +
-      (scene.volumes.size() > 1 ? " volumes or components: their extinctions add up" : " volume")));
-  effects.push_back(effect("gradient shading",
-    shading,
+      (scene.volumes.size() == 1                    ? " volume"
+          : scene.mixture == Mixture::Components ? " components, mixed as VTK's mappers do"
+                                                 : " volumes: their extinctions add up")));
+  effects.push_back(effect("gradient shading", shading,
     shading ? "vtkVolumeProperty::Shade is on; not a physical term"
             : "vtkVolumeProperty::Shade is off"));
   effects.push_back(effect("gradient opacity",

@@ -7,10 +7,12 @@
 #include "Transport/marcher.h"
 #include "Transport/step_control.h"
 
+#include "vtkColorTransferFunction.h"
+#include "vtkContourValues.h"
 #include "vtkImageData.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPiecewiseFunction.h"
-#include "vtkColorTransferFunction.h"
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
 
@@ -67,6 +69,7 @@ struct vtkBrumeRayMarchMapper::Internals
   brume::Marcher Marchers[VTK_MAX_VRCOMP];
   std::vector<double> LastStep;
   brume::StepChoice Choice;
+  vtkNew<vtkContourValues> DepthPassContourValues; ///< kept for callers; nothing reads it
 };
 
 vtkStandardNewMacro(vtkBrumeRayMarchMapper);
@@ -92,6 +95,11 @@ void vtkBrumeRayMarchMapper::SetSampleDistance(double distance)
     this->SampleDistance = distance;
     this->Modified();
   }
+}
+
+vtkContourValues* vtkBrumeRayMarchMapper::GetDepthPassContourValues()
+{
+  return this->Internal->DepthPassContourValues;
 }
 
 void vtkBrumeRayMarchMapper::SetPartitions(unsigned short x, unsigned short y, unsigned short z)

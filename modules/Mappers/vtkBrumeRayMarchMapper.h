@@ -25,6 +25,7 @@
 #include <string> // for std::string
 #include <vector> // for std::vector
 
+class vtkContourValues;
 class vtkRenderWindow;
 class vtkVolumeProperty;
 
@@ -141,6 +142,7 @@ public:
   vtkSetClampMacro(UseDepthPass, vtkTypeBool, 0, 1);
   vtkGetMacro(UseDepthPass, vtkTypeBool);
   vtkBooleanMacro(UseDepthPass, vtkTypeBool);
+  vtkContourValues* GetDepthPassContourValues();
   vtkSetMacro(MaxMemoryInBytes, vtkIdType);
   vtkGetMacro(MaxMemoryInBytes, vtkIdType);
   vtkSetClampMacro(MaxMemoryFraction, float, 0.1f, 1.0f);

@@ -171,6 +171,7 @@ brume::Scene* vtkBrumeVolumeMapper::UpdateScene(vtkVolume* first,
   }
   brume::Scene& together = this->Internal->Together;
   together = *scene;
+  together.mixture = brume::Mixture::Sum;
   for (vtkVolume* volume : others)
   {
     auto* mapper = vtkBrumeVolumeMapper::SafeDownCast(volume->GetMapper());
@@ -323,8 +324,7 @@ void vtkBrumeVolumeMapper::ResetClippingRange(vtkVolume* volume, vtkCamera* came
 
 void vtkBrumeVolumeMapper::WarnOfIgnoredSettings(vtkVolume* volume, int components)
 {
-  this->IgnoredSettings = brume::ignored_settings(this,
-    volume,
+  this->IgnoredSettings = brume::ignored_settings(volume,
     { this->Internal->Mask, this->MaskType == LabelMapMaskType, this->MaskBlendFactor },
     components);
   this->AppendIgnoredSettings(volume, this->IgnoredSettings);

@@ -189,6 +189,22 @@ public:
   bool RenderImage(vtkVolume* volume, vtkCamera* camera, vtkLightCollection* lights, int width,
     int height, const double background[3], vtkImageData* image);
 
+  ///@{
+  /**
+   * A thumbnail, as the stock mappers make it: the volume seen along a direction in parallel
+   * projection, its width along x filling the picture, with another blend mode, without cropping,
+   * lit from the viewer, over black. `image` has the picture's dimensions, and becomes red, green and
+   * blue bytes.
+   */
+  void CreateCanonicalView(vtkVolume* volume, vtkImageData* image, int blendMode,
+    double viewDirection[3], double viewUp[3]);
+  void CreateCanonicalView(vtkRenderer*, vtkVolume* volume, vtkImageData* image, int blendMode,
+    double viewDirection[3], double viewUp[3])
+  {
+    this->CreateCanonicalView(volume, image, blendMode, viewDirection, viewUp);
+  }
+  ///@}
+
   /**
    * Fits the camera's clipping range to the volume's bounds, as vtkRenderer::ResetCameraClippingRange
    * does for all props of a window.

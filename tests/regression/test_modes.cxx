@@ -289,4 +289,39 @@ TEST(Modes, ALabelMap)
   }
 }
 
+// Thumbnails. The CPU mapper's loses the rest of a division by 128, and with it up to a level.
+TEST(Modes, CanonicalViews)
+{
+  Scene scene = of("canonical");
+  double direction[3] = { 0.3, -0.4, -1.0 };
+  double up[3] = { 0, 1, 0 };
+  const auto picture = [&](auto* mapper)
+  {
+    Window w(scene);
+    mapper->SetAutoAdjustSampleDistances(0);
+    mapper->SetSampleDistance(0.5);
+    mapper->SetInputData(scene.image);
+    mapper->CroppingOn(); // not heeded
+    w.volume->SetMapper(mapper);
+    vtkNew<vtkImageData> image;
+    image->SetDimensions(size, size, 1);
+    image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+    mapper->CreateCanonicalView(
+      w.volume, image, vtkVolumeMapper::COMPOSITE_BLEND, direction, up);
+    EXPECT_TRUE(mapper->GetCropping());
+    Picture result;
+    for (vtkIdType i = 0; i < 3 * size * size; ++i)
+      result.push_back(static_cast<unsigned char*>(image->GetScalarPointer())[i] / 255.0);
+    return result;
+  };
+  const Picture ours = picture(vtkNew<vtkBrumeRayMarchMapper>().Get());
+  const Picture theirs = picture(vtkNew<vtkFixedPointVolumeRayCastMapper>().Get());
+  const Errors errors = errors_of(ours, theirs);
+  std::cout << "canonical, CPU: mean " << errors.mean << ", p99.9 " << errors.p999 << "\n";
+  keep("canonical", { ours, theirs });
+  EXPECT_GT(brightest(ours), 0.4);
+  EXPECT_LE(errors.mean, 0.6);
+  EXPECT_LE(errors.p999, 4.0);
+}
+
 }

@@ -239,10 +239,16 @@ TEST(SceneFromVTK, BlendModesAreVTKs)
   EXPECT_EQ(scene.average_range[0], 20);
   EXPECT_EQ(scene.average_range[1], 120);
   EXPECT_EQ(scene.isosurfaces, (std::vector<double>{ 50, 150 }));
-  EXPECT_FALSE(stage.errors->GetWarning());
+  EXPECT_EQ(scene.volumes[0].grey_range[0], 0.0);
+  EXPECT_EQ(scene.volumes[0].grey_range[1], scene.volumes[0].ranges->upper);
   stage.mapper->SetBlendModeToSlice();
-  EXPECT_EQ(stage.scene().blend_mode, brume::BlendMode::Composite);
-  EXPECT_TRUE(stage.errors->GetWarning());
+  stage.refuses("SetSliceFunction");
+  vtkNew<vtkPlane> plane;
+  plane->SetOrigin(1, 2, 3);
+  plane->SetNormal(0, 0, -1);
+  stage.property()->SetSliceFunction(plane);
+  EXPECT_EQ(stage.scene().blend_mode, brume::BlendMode::Slice);
+  EXPECT_EQ(stage.scene().slice, glm::dvec4(0, 0, -1, 3));
 }
 
 // Components. ----------------------------------------------------------------------------------
@@ -312,6 +318,27 @@ TEST(SceneFromVTK, IndependentComponentsAreVolumesThatShareTheirVoxels)
         }
       }
     }
+  }
+}
+
+// Of several, surfaces are those of the heaviest; and back again.
+TEST(SceneFromVTK, SurfacesAreOfTheHeaviestComponent)
+{
+  Stage stage(image(5, 6, 7, VTK_SHORT,
+    [](int i, int j, int k, int c) { return (1 + c) * (i + j + k); }, 3));
+  stage.property()->SetComponentWeight(0, 0.3);
+  stage.property()->SetComponentWeight(1, 0.4);
+  stage.property()->SetComponentWeight(2, 0.9);
+  EXPECT_EQ(stage.scene().mixture, brume::Mixture::Components);
+  EXPECT_EQ(stage.first().grid.component, 0);
+  stage.mapper->SetBlendModeToIsoSurface();
+  EXPECT_EQ(stage.first().grid.component, 2);
+  EXPECT_EQ(stage.first().weight, 0.9);
+  EXPECT_EQ(stage.first().grey_range[1], 45.0);
+  stage.mapper->SetBlendModeToMaximumIntensity();
+  for (int c = 0; c < 3; ++c)
+  {
+    EXPECT_EQ(stage.scene().volumes[c].grid.component, c);
   }
 }
 
