@@ -36,6 +36,10 @@ public:
     const Leaper leaper(Volume.bricks, rays.lines[0]);
     State state;
     state.end = rays.end;
+    if constexpr (Gradient)
+    {
+      state.viewer = toward_viewer(Volume.shade, rays.lines[0]);
+    }
     std::uint64_t samples = 0;
     bool fresh = true; // the values before this step are not known
     bool empty = true; // nothing was met in the last steps: look for bricks to leap over
@@ -98,6 +102,7 @@ private:
     Real depth;        ///< of the step before
     Real depth_before; ///< Midpoint: of the one before that
     Int stretch;       ///< Integrated: the table's stretch of `value`
+    Vec3<Real> viewer; ///< Gradient: unit vectors of the world toward the viewer
 
     HWY_INLINE State()
       : step(hn::Zero(float_tag))
@@ -231,7 +236,7 @@ private:
       }
       if (Volume.shade.enabled)
       {
-        colour = shaded(Volume.shade, rays.lines[0], centre, gradient, colour);
+        colour = shaded(Volume.shade, rays.lines[0], state.viewer, centre, gradient, colour);
       }
     }
     // A stretch of constant source and extinction: S (1 − e^(−τ)), seen through what is in front.

@@ -92,7 +92,8 @@ public:
       }
       if (Volume.shade.enabled)
       {
-        colour = shaded(Volume.shade, line, position, gradient, colour);
+        const Vec3<Real> viewer = toward_viewer(Volume.shade, line);
+        colour = shaded(Volume.shade, line, viewer, position, gradient, colour);
       }
     }
     return depth;
