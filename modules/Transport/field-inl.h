@@ -29,6 +29,54 @@ struct Line
   HWY_INLINE Vec3<Real> at(Real position) const { return begin + delta * position; }
 };
 
+/// A cubic over t in [0, 1], from its values at 0, 1/3, 2/3 and 1.
+struct Curve
+{
+  Real a0, a1, a2, a3; ///< a0 + a1 t + a2 t² + a3 t³
+  Real last;           ///< at 1, without rounding
+
+  HWY_INLINE Real at(Real t) const
+  {
+    return hn::MulAdd(hn::MulAdd(hn::MulAdd(a3, t, a2), t, a1), t, a0);
+  }
+  /// Bounds of its values: it lies in the hull of Bernstein's coefficients.
+  HWY_INLINE Real upper() const
+  {
+    return max(max(a0, last), max(inner(1.0f), inner(2.0f)));
+  }
+  HWY_INLINE Real lower() const
+  {
+    return hn::Min(hn::Min(a0, last), hn::Min(inner(1.0f), inner(2.0f)));
+  }
+  /// Where its slope passes 0 from above to below (side 1) or from below to above (side −1); outside
+  /// [0, 1] or not a number where it does not. The root's form that does not cancel.
+  HWY_INLINE Real turn(float side) const
+  {
+    const Real a = a3 * real(3.0f);
+    const Real b = a2;
+    const Real discriminant = hn::MulSub(b, b, a * a1);
+    const Real root = hn::Sqrt(max(discriminant, hn::Zero(float_tag))) * real(side);
+    const Mask far = b * real(side) >= hn::Zero(float_tag);
+    const Real t = select(far, (b + root) / hn::Neg(a), a1 / (root - b));
+    return select(discriminant > hn::Zero(float_tag), t, real(-1.0f));
+  }
+
+private:
+  HWY_INLINE Real inner(float which) const
+  {
+    const Real third = real(1.0f / 3.0f);
+    const Real first = hn::MulAdd(a1, third, a0);
+    return which == 1.0f ? first : hn::MulAdd(a1 + a2, third, first);
+  }
+};
+
+/// The largest of sign · value that a packet has met, and where.
+struct Extreme
+{
+  Real value;
+  Real position;
+};
+
 /// What integrators ask of a field.
 struct FieldFunctions
 {
@@ -37,6 +85,13 @@ struct FieldFunctions
   /// Gradient at a place of index space by central differences of one voxel, interpolated, in
   /// values per voxel.
   void (*gradient)(const FieldView&, const Vec3<Real>& place, Vec3<Real>& gradient);
+  /// Of cells that the line passes one after the other: cell i lies between the positions ends[i]
+  /// and ends[i + 1], and the value in it is a cubic of the position. curves[i] is that cubic.
+  void (*curves)(const FieldView&, const Line&, const Real* ends, int count, Curve* curves);
+  /// Where sign · value rises above best.value in such cells, `best` is raised to the first of its
+  /// largest values.
+  void (*extremes)(
+    const FieldView&, const Line&, const Real* ends, int count, float sign, Extreme& best);
 };
 
 FieldFunctions field_uint8(const FieldView& view);
@@ -94,7 +149,67 @@ public:
     gradient = field.gradient(field.locate(place));
   }
 
+  static void
+  curves(const FieldView& view, const Line& line, const Real* ends, int count, Curve* curves)
+  {
+    const Field field(view);
+    for (int i = 0; i < count; ++i)
+    {
+      Pair rows[4];
+      const Cell cell = field.locate(line.at((ends[i] + ends[i + 1]) * real(0.5f)));
+      field.read(cell, rows);
+      curves[i] = field.curve(cell, rows, line, ends[i], ends[i + 1], real(1.0f));
+    }
+  }
+
+  static void extremes(const FieldView& view,
+    const Line& line,
+    const Real* ends,
+    int count,
+    float sign,
+    Extreme& best)
+  {
+    const Field field(view);
+    const Real signs = real(sign);
+    for (int i = 0; i < count; ++i)
+    {
+      Pair rows[4];
+      const Cell cell = field.locate(line.at((ends[i] + ends[i + 1]) * real(0.5f)));
+      field.read(cell, rows);
+      // Most cells have no voxel as large.
+      Real most = rows[0].first * signs;
+      for (int row = 0; row < 4; ++row)
+      {
+        most = max(most, max(rows[row].first * signs, rows[row].second * signs));
+      }
+      if (hn::AllFalse(float_tag, most > best.value))
+      {
+        continue;
+      }
+      const Curve curve = field.curve(cell, rows, line, ends[i], ends[i + 1], signs);
+      if (hn::AllFalse(float_tag, curve.upper() > best.value))
+      {
+        continue;
+      }
+      const Real length = ends[i + 1] - ends[i];
+      raise(best, curve.a0, ends[i]);
+      const Real t = curve.turn(1.0f);
+      const Mask inside =
+        hn::And(t > hn::Zero(float_tag), t < real(1.0f)); // a NaN is in no interval
+      const Real turn = hn::IfThenElseZero(inside, t);
+      raise(best, hn::Min(curve.at(turn), most), hn::MulAdd(turn, length, ends[i]));
+      raise(best, curve.last, ends[i + 1]);
+    }
+  }
+
 private:
+  static HWY_INLINE void raise(Extreme& best, Real value, Real position)
+  {
+    const Mask higher = value > best.value;
+    best.value = select(higher, value, best.value);
+    best.position = select(higher, position, best.position);
+  }
+
   /// The eight voxels around a place, as one cell and the place in it.
   struct Cell
   {
@@ -126,10 +241,8 @@ private:
     Real first, second;
   };
 
-  /// Trilinear also serves the nearest voxel: its fractions are 0 or 1.
-  HWY_INLINE Real value(const Cell& cell) const
+  HWY_INLINE void read(const Cell& cell, Pair rows[4]) const
   {
-    Pair rows[4];
     if (HWY_UNLIKELY(View.far))
     {
       for (int row = 0; row < 4; ++row)
@@ -163,13 +276,66 @@ private:
         rows[3] = pair<true>(offset, y + z);
       }
     }
-    const Real x = cell.fraction[0];
-    const Real y = cell.fraction[1];
+  }
+
+  static HWY_INLINE Real blend(const Pair rows[4], Real x, Real y, Real z)
+  {
     const Real low =
       lerp(lerp(rows[0].first, rows[0].second, x), lerp(rows[1].first, rows[1].second, x), y);
     const Real high =
       lerp(lerp(rows[2].first, rows[2].second, x), lerp(rows[3].first, rows[3].second, x), y);
-    return lerp(low, high, cell.fraction[2]);
+    return lerp(low, high, z);
+  }
+
+  /// Trilinear also serves the nearest voxel: its fractions are 0 or 1.
+  HWY_INLINE Real value(const Cell& cell) const
+  {
+    Pair rows[4];
+    read(cell, rows);
+    return blend(rows, cell.fraction[0], cell.fraction[1], cell.fraction[2]);
+  }
+
+  /// The values of a cell along the line, times `factor`.
+  HWY_INLINE Curve curve(
+    const Cell& cell, const Pair rows[4], const Line& line, Real from, Real to, Real factor) const
+  {
+    Real begin[3];
+    Real way[3];
+    const Vec3<Real> first = line.at(from);
+    const Vec3<Real> last = line.at(to);
+    const Real* ends[2][3] = { { &first.x, &first.y, &first.z }, { &last.x, &last.y, &last.z } };
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const Real index = hn::ConvertTo(float_tag, cell.index[axis]);
+      const Real one = real(View.last[axis] > 0 ? 1.0f : 0.0f);
+      const auto fraction = [&](Real place)
+      {
+        return View.linear ? clamp(place - index, hn::Zero(float_tag), one) : cell.fraction[axis];
+      };
+      begin[axis] = fraction(*ends[0][axis]);
+      way[axis] = fraction(*ends[1][axis]) - begin[axis];
+    }
+    const auto at = [&](Real t)
+    {
+      return factor * blend(rows,
+                        hn::MulAdd(way[0], t, begin[0]),
+                        hn::MulAdd(way[1], t, begin[1]),
+                        hn::MulAdd(way[2], t, begin[2]));
+    };
+    const Real v0 = at(hn::Zero(float_tag));
+    const Real v1 = at(real(1.0f / 3.0f));
+    const Real v2 = at(real(2.0f / 3.0f));
+    Curve curve;
+    curve.last = at(real(1.0f));
+    // Newton's forward differences in 3 t.
+    const Real d1 = v1 - v0;
+    const Real d2 = (v2 - v1) - d1;
+    const Real d3 = ((curve.last - v2) - (v2 - v1)) - d2;
+    curve.a0 = v0;
+    curve.a1 = real(3.0f) * (d1 - real(0.5f) * d2) + d3;
+    curve.a2 = real(4.5f) * (d2 - d3);
+    curve.a3 = real(4.5f) * d3;
+    return curve;
   }
 
   /// Trilinear interpolation commutes with differences: this is the interpolated gradient.
@@ -369,7 +535,8 @@ private:
 template <class T, int SecondBit>
 HWY_INLINE FieldFunctions field_with_pairs()
 {
-  return { &Field<T, SecondBit>::values, &Field<T, SecondBit>::gradient };
+  using Reader = Field<T, SecondBit>;
+  return { &Reader::values, &Reader::gradient, &Reader::curves, &Reader::extremes };
 }
 }
 }

@@ -50,7 +50,11 @@ public:
 
   HWY_INLINE Real extinction(Real position) const
   {
-    return channel<3>(&Table.nodes[0].red, locate(position, hn::Zero(int_tag)));
+    return extinction(position, hn::Zero(int_tag));
+  }
+  HWY_INLINE Real extinction(Real position, Int first) const
+  {
+    return channel<3>(&Table.nodes[0].red, locate(position, first));
   }
 
   /// The number of the stretch of even slopes that a position lies in.
