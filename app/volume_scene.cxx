@@ -65,7 +65,7 @@ std::vector<glm::dvec3> visible_corners(const VolumeScene& scene)
                                     : error.substr(address + 3, error.find_last_not_of("\n ") - address - 2)));
   }
   const BrickRanges& ranges = *plain->volumes[0].ranges;
-  const LookupTable table = make_lookup_table(plain->volumes[0].classification, 1.0);
+  const LookupTable table = make_lookup_table(plain->volumes[0].classification);
   const VisibleBricks bricks = find_visible_bricks(
     ranges, [&](float lower, float upper) { return table.can_show(lower, upper); },
     table.empty_value);
@@ -82,7 +82,9 @@ std::vector<glm::dvec3> visible_corners(const VolumeScene& scene)
       corners.push_back(glm::dvec3(plain->volumes[0].data_from_index * place));
     }
   };
-  const glm::dvec3 last(plain->volumes[0].grid.upper(0), plain->volumes[0].grid.upper(1), plain->volumes[0].grid.upper(2));
+  const Grid& grid = plain->volumes[0].grid;
+  const glm::dvec3 begin(grid.first[0], grid.first[1], grid.first[2]);
+  const glm::dvec3 last(grid.upper(0), grid.upper(1), grid.upper(2));
   std::size_t index = 0;
   for (int z = 0; z < bricks.dims[2]; ++z)
   {
@@ -92,15 +94,15 @@ std::vector<glm::dvec3> visible_corners(const VolumeScene& scene)
       {
         if (bricks.distance[index] == 0)
         {
-          const glm::dvec3 lower = double(BrickRanges::edge) * glm::dvec3(x, y, z);
-          add_box(lower, glm::min(lower + double(BrickRanges::edge), last));
+          const glm::dvec3 lower = double(ranges.edge()) * glm::dvec3(x, y, z);
+          add_box(glm::max(lower, begin), glm::min(lower + double(ranges.edge()), last));
         }
       }
     }
   }
   if (corners.empty())
   {
-    add_box(glm::dvec3(0.0), last);
+    add_box(begin, last);
   }
   return corners;
 }

@@ -21,6 +21,16 @@ list(FILTER _oiio_includes EXCLUDE REGEX "opencv")
 set_target_properties(OpenImageIO::OpenImageIO PROPERTIES
   INTERFACE_INCLUDE_DIRECTORIES "${_oiio_includes}")
 
+# OpenVDB comes with a find module, in a folder of its own beside its library.
+find_path(BRUME_OPENVDB_CMAKE_DIR FindOpenVDB.cmake
+  PATHS ${CMAKE_PREFIX_PATH} ${CMAKE_SYSTEM_PREFIX_PATH}
+  PATH_SUFFIXES lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB lib64/cmake/OpenVDB
+    lib/cmake/OpenVDB cmake/OpenVDB
+  DOC "The folder of FindOpenVDB.cmake")
+mark_as_advanced(BRUME_OPENVDB_CMAKE_DIR)
+list(APPEND CMAKE_MODULE_PATH "${BRUME_OPENVDB_CMAKE_DIR}")
+find_package(OpenVDB 10 REQUIRED COMPONENTS openvdb)
+
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(X11 REQUIRED) # the program asks whether a display can be opened

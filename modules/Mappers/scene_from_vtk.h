@@ -2,17 +2,16 @@
 #ifndef scene_from_vtk_h
 #define scene_from_vtk_h
 
+#include "grid_from_vtk.h"
+#include "mask_from_vtk.h"
+
 #include "Transport/scene.h"
 
-#include <memory>
 #include <string>
 #include <tuple>
-#include <vector>
 
 class vtkCamera;
-class vtkDataArray;
-class vtkDataSet;
-class vtkLight;
+class vtkImageData;
 class vtkLightCollection;
 class vtkVolume;
 class vtkVolumeMapper;
@@ -21,38 +20,50 @@ class vtkVolumeProperty;
 namespace brume
 {
 
+/// What a view is made with.
+struct ViewFromVTK
+{
+  vtkCamera* camera = nullptr;
+  /// May be null or empty: a headlight then, as a vtkRenderer makes one.
+  vtkLightCollection* lights = nullptr;
+  int width = 1;  ///< pixels
+  int height = 1; ///< pixels
+  bool two_sided_lighting = true;
+  int threads = 0;
+};
+
+/// A mapper's mask.
+struct MaskSettings
+{
+  vtkImageData* image = nullptr;
+  bool label_map = true;
+  double blend_factor = 1.0;
+};
+
 /// Builds scenes and keeps what does not change from one to the next. A part is rebuilt when the
 /// VTK objects that it comes from say that they were modified.
 class SceneFromVTK
 {
 public:
-  /// Brings the scene up to date for a picture of width × height pixels. `lights` may be null or
-  /// empty: a headlight then, as a vtkRenderer makes one. Returns an empty string, or what is wrong
-  /// and what to do.
-  std::string Update(vtkVolumeMapper* mapper, vtkVolume* volume, vtkCamera* camera,
-    vtkLightCollection* lights, int width, int height, bool twoSidedLighting, int threads);
+  /// Brings the scene up to date. Returns an empty string, or what is wrong and what to do.
+  std::string Update(vtkVolumeMapper* mapper, vtkVolume* volume, const MaskSettings& mask,
+    const ViewFromVTK& view);
 
   Scene& GetScene() { return this->TheScene; }
 
 private:
-  std::string UpdateGrid(vtkVolumeMapper* mapper, vtkVolumeProperty* property);
-  std::string UpdateClassification(vtkVolumeProperty* property);
-  void UpdateShading(vtkVolumeProperty* property, vtkLightCollection* lights, vtkCamera* camera,
-    bool twoSidedLighting);
-  void UpdateCamera(vtkCamera* camera, double aspect);
-  void MeasureRange();
+  std::string UpdateMedia(vtkVolumeProperty* property, const MaskSettings& mask);
+  bool DrawsLabels(vtkVolumeProperty* property, const MaskSettings& mask) const;
+  void UpdateLabels(vtkVolumeProperty* property, const MaskSettings& mask);
 
   Scene TheScene;
-  int NumberOfThreads = 0;
-  double Range[2] = { 0.0, 0.0 };
-  double Spacing[3] = { 1.0, 1.0, 1.0 };
-  /// Voxels that could not be read in place: converted or padded.
-  std::vector<unsigned char> Converted;
+  GridFromVTK Source;
+  MaskFromVTK Labels;
 
-  using DataKey = std::tuple<vtkDataArray*, unsigned long, unsigned long, int, int, int, int>;
-  DataKey LastData{ nullptr, 0, 0, 0, 0, 0, 0 };
-  using MediumKey = std::tuple<vtkVolumeProperty*, unsigned long, std::uint64_t>;
-  MediumKey LastMedium{ nullptr, 0, 0 };
+  using MediumKey = std::tuple<vtkVolumeProperty*, unsigned long, unsigned long, std::uint64_t,
+    bool, double>;
+  MediumKey LastMedium{ nullptr, 0, 0, 0, false, 0.0 };
+  std::uint64_t LastVoxels = 0;
 };
 
 }

@@ -15,14 +15,17 @@
 namespace
 {
 
-// One texel a pixel: the quad fills the viewport and the film is as large.
+// The quad fills the viewport. A film as large has one texel a pixel; another one is interpolated.
 const char* const FragmentShader = R"(//VTK::System::Dec
 //VTK::Output::Dec
 uniform sampler2D film;
+uniform int interpolate;
 in vec2 texCoord;
 void main()
 {
-  gl_FragData[0] = texelFetch(film, ivec2(texCoord * vec2(textureSize(film, 0))), 0);
+  gl_FragData[0] = interpolate != 0
+    ? texture(film, texCoord)
+    : texelFetch(film, ivec2(texCoord * vec2(textureSize(film, 0))), 0);
 }
 )";
 
@@ -59,8 +62,15 @@ bool vtkBrumeFilmBlender::Blend(const brume::Film& film, vtkRenderer* renderer)
     this->Pixels[4 * i + 3] = opacity;
   }
   this->Texture->SetContext(window);
-  this->Texture->SetMinificationFilter(vtkTextureObject::Nearest);
-  this->Texture->SetMagnificationFilter(vtkTextureObject::Nearest);
+  int width = 0;
+  int height = 0;
+  renderer->GetTiledSize(&width, &height);
+  const bool interpolate = film.width != width || film.height != height;
+  const int filter = interpolate ? vtkTextureObject::Linear : vtkTextureObject::Nearest;
+  this->Texture->SetMinificationFilter(filter);
+  this->Texture->SetMagnificationFilter(filter);
+  this->Texture->SetWrapS(vtkTextureObject::ClampToEdge);
+  this->Texture->SetWrapT(vtkTextureObject::ClampToEdge);
   if (!this->Texture->Create2DFromRaw(static_cast<unsigned int>(film.width),
         static_cast<unsigned int>(film.height), 4, VTK_FLOAT, this->Pixels.data()))
   {
@@ -89,6 +99,7 @@ bool vtkBrumeFilmBlender::Blend(const brume::Film& film, vtkRenderer* renderer)
   state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   this->Texture->Activate();
   this->Quad->Program->SetUniformi("film", this->Texture->GetTextureUnit());
+  this->Quad->Program->SetUniformi("interpolate", interpolate);
   this->Quad->Render();
   this->Texture->Deactivate();
   return true;

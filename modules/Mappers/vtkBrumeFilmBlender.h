@@ -17,7 +17,8 @@ class vtkTextureObject;
 class vtkWindow;
 
 /// Blends a film over what is already in a renderer's viewport: radiance + transmittance · frame,
-/// pixel for pixel, without filtering and without touching the depth buffer.
+/// without touching the depth buffer. Pixel for pixel and without filtering where the film is as large
+/// as the viewport; one of another size is stretched over it, bilinear.
 class vtkBrumeFilmBlender : public vtkObject
 {
 public:
@@ -25,7 +26,7 @@ public:
   vtkTypeMacro(vtkBrumeFilmBlender, vtkObject);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// The film is as large as the renderer's viewport. Returns false where its window is not an OpenGL one.
+  /// Returns false where the renderer's window is not an OpenGL one.
   bool Blend(const brume::Film& film, vtkRenderer* renderer);
 
   void ReleaseGraphicsResources(vtkWindow* window);

@@ -1,18 +1,24 @@
 #include "vtkBrumeRayMarchMapper.h"
 
+#include "image_sampling.h"
+#include "march_report.h"
+
+#include "Transport/film.h"
 #include "Transport/marcher.h"
 #include "Transport/step_control.h"
 
+#include "vtkImageData.h"
 #include "vtkObjectFactory.h"
+#include "vtkPiecewiseFunction.h"
+#include "vtkColorTransferFunction.h"
+#include "vtkVolume.h"
+#include "vtkVolumeProperty.h"
 
 #include <nlohmann/json.hpp>
-
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <tuple>
 
 namespace
 {
@@ -21,57 +27,45 @@ namespace
 constexpr double LeaveShare = 0.25;
 constexpr double StepShare = 0.75;
 
-/// The most memory that the process has held so far.
-std::int64_t PeakMemoryBytes()
+/// Revisions and whatever else the choice of a step hangs on.
+std::vector<double> StepKeyOf(const brume::Scene& scene, double tolerance)
 {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return std::int64_t{ usage.ru_maxrss } * 1024; // Linux counts in KiB
+  std::vector<double> key{ tolerance, static_cast<double>(scene.blend_mode) };
+  for (const brume::Volume& volume : scene.volumes)
+  {
+    key.push_back(static_cast<double>(volume.data_revision));
+    key.push_back(static_cast<double>(volume.medium_revision));
+    key.push_back(volume.shading.enabled);
+  }
+  if (scene.blend_mode == brume::BlendMode::Isosurface)
+  {
+    key.insert(key.end(), scene.isosurfaces.begin(), scene.isosurfaces.end());
+  }
+  return key;
 }
 
-nlohmann::json Effect(const char* name, bool on, const std::string& reason, double bound = 0.0)
+void Add(brume::MarchStatistics& sum, const brume::MarchStatistics& march)
 {
-  return { { "name", name }, { "on", on }, { "reason", reason }, { "error_bound", bound } };
-}
-
-nlohmann::json Effects(
-  const brume::Scene& scene, const brume::MarchStatistics& march, double leave_error)
-{
-  const bool gradientOpacity = !scene.volumes[0].classification.gradient_opacity.empty();
-  nlohmann::json effects = nlohmann::json::array();
-  effects.push_back(Effect("absorption", march.visible_bricks > 0,
-    march.visible_bricks > 0 ? "the opacity function is above 0 for values of the data"
-                             : "the opacity function is 0 for every value of the data"));
-  effects.push_back(Effect("emission", march.visible_bricks > 0,
-    "the transfer functions' colour is the source, as in VTK's composite mode"));
-  effects.push_back(Effect("scattering", false,
-    "a vtkVolumeProperty without a medium has none: VTK's composite mode is emission and "
-    "absorption"));
-  effects.push_back(Effect("gradient shading", scene.volumes[0].shading.enabled,
-    scene.volumes[0].shading.enabled ? "vtkVolumeProperty::Shade is on; not a physical term"
-                          : "vtkVolumeProperty::Shade is off"));
-  effects.push_back(Effect("gradient opacity", gradientOpacity,
-    gradientOpacity ? "the property has a gradient opacity function; not a physical term"
-                    : "the property has no gradient opacity function"));
-  effects.push_back(Effect("surfaces", !scene.surface_depth.empty(),
-    scene.surface_depth.empty() ? "no opaque geometry is shown with the volume"
-                                : "rays end at opaque geometry"));
-  effects.push_back(Effect("leaving rays early", march.visible_bricks > 0,
-    "a ray ends when what is behind cannot change its pixel by more than the bound", leave_error));
-  const bool leaps = march.visible_bricks < march.bricks;
-  effects.push_back(Effect("space leaping", leaps,
-    std::to_string(march.bricks - march.visible_bricks) + " of " + std::to_string(march.bricks) +
-      " bricks hold no value that can be seen"));
-  return effects;
+  sum.seconds_prepare += march.seconds_prepare;
+  sum.seconds += march.seconds;
+  sum.samples += march.samples;
+  sum.rays = std::max(sum.rays, march.rays);
+  sum.threads = march.threads;
+  sum.simd = march.simd;
+  sum.step = march.step;
+  sum.non_finite_voxels += march.non_finite_voxels;
+  sum.bricks += march.bricks;
+  sum.visible_bricks += march.visible_bricks;
+  sum.completed = march.completed;
 }
 
 }
 
 struct vtkBrumeRayMarchMapper::Internals
 {
-  brume::Marcher Marcher;
-  using StepKey = std::tuple<std::uint64_t, std::uint64_t, bool, double>;
-  StepKey LastStep{ 0, 0, false, -1.0 };
+  /// One for the scene; of projections one for each component.
+  brume::Marcher Marchers[VTK_MAX_VRCOMP];
+  std::vector<double> LastStep;
   brume::StepChoice Choice;
 };
 
@@ -100,16 +94,96 @@ void vtkBrumeRayMarchMapper::SetSampleDistance(double distance)
   }
 }
 
+void vtkBrumeRayMarchMapper::SetPartitions(unsigned short x, unsigned short y, unsigned short z)
+{
+  this->Partitions[0] = x;
+  this->Partitions[1] = y;
+  this->Partitions[2] = z;
+}
+
+float vtkBrumeRayMarchMapper::GetEstimatedRenderTime(vtkRenderer* renderer, vtkVolume* volume)
+{
+  return static_cast<float>(this->GetSecondsOfPicture(renderer, volume));
+}
+
+float vtkBrumeRayMarchMapper::ComputeRequiredImageSampleDistance(
+  float desiredTime, vtkRenderer* renderer, vtkVolume* volume)
+{
+  const double seconds = this->GetSecondsOfPicture(renderer, volume);
+  // Without a picture to go by there is nothing to be coarser than.
+  double distance = seconds > 0.0 && desiredTime > 0.0f ? std::sqrt(seconds / desiredTime) : 0.0;
+  if (distance > 1.0)
+  {
+    distance = std::ceil(4.0 * distance) / 4.0; // so that it does not change with every picture
+  }
+  distance = std::max<double>(distance, this->MinimumImageSampleDistance);
+  return static_cast<float>(std::min<double>(distance, this->MaximumImageSampleDistance));
+}
+
+double vtkBrumeRayMarchMapper::ChooseImageSampleDistance(
+  vtkRenderer* renderer, vtkVolume* volume, double allocated)
+{
+  return this->AutoAdjustSampleDistances
+    ? this->ComputeRequiredImageSampleDistance(
+        static_cast<float>(std::min(allocated, 1e30)), renderer, volume)
+    : this->ImageSampleDistance;
+}
+
+void vtkBrumeRayMarchMapper::AppendIgnoredSettings(
+  vtkVolume* volume, std::vector<std::string>& names)
+{
+  const auto ignored = [&names](bool is, const char* setting)
+  {
+    if (is)
+    {
+      names.emplace_back(setting);
+    }
+  };
+  ignored(this->InteractiveSampleDistance != 2.0f, "InteractiveSampleDistance");
+  ignored(this->UseDepthPass != 0, "UseDepthPass");
+  ignored(this->MaxMemoryInBytes != 0, "MaxMemoryInBytes");
+  ignored(this->MaxMemoryFraction != 0.75f, "MaxMemoryFraction");
+  ignored(this->RenderToImage != 0, "RenderToImage");
+  ignored(this->DepthImageScalarType != VTK_FLOAT, "DepthImageScalarType");
+  ignored(this->ClampDepthToBackface != 0, "ClampDepthToBackface");
+  ignored(!this->Transfer2DYAxisArray.empty(), "Transfer2DYAxisArray");
+  ignored(this->Partitions[0] > 1 || this->Partitions[1] > 1 || this->Partitions[2] > 1,
+    "Partitions");
+  // Functions that keep their end's value beyond their nodes are the same over either range.
+  vtkVolumeProperty* property = volume->GetProperty();
+  ignored(this->ScalarOpacityRangeType != SCALAR && !property->GetScalarOpacity()->GetClamping(),
+    "ScalarOpacityRangeType");
+  ignored(this->ColorRangeType != SCALAR && property->GetColorChannels() == 3 &&
+      !property->GetRGBTransferFunction()->GetClamping(),
+    "ColorRangeType");
+  ignored(this->GradientOpacityRangeType != SCALAR, "GradientOpacityRangeType");
+}
+
+double vtkBrumeRayMarchMapper::FixedStep()
+{
+  auto* image = vtkImageData::SafeDownCast(this->GetInput());
+  if (!this->LockSampleDistanceToInputSpacing || !image)
+  {
+    return this->SampleDistance;
+  }
+  double spacing[3];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    spacing[axis] = std::abs(image->GetSpacing()[axis]);
+  }
+  return this->SpacingAdjustedSampleDistance(spacing, image->GetExtent());
+}
+
 bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& scene, brume::Film& film)
 {
   double secondsStep = 0.0;
   brume::MarchSettings settings;
   settings.threads = this->NumberOfThreads;
   settings.leave_error = LeaveShare * this->Tolerance;
+  settings.jitter = this->UseJittering != 0;
   if (this->AutoAdjustSampleDistances)
   {
-    const Internals::StepKey key{ scene.volumes[0].data_revision, scene.volumes[0].medium_revision,
-      scene.volumes[0].shading.enabled, this->Tolerance };
+    const std::vector<double> key = StepKeyOf(scene, this->Tolerance);
     if (key != this->Internal->LastStep)
     {
       const auto start = std::chrono::steady_clock::now();
@@ -124,17 +198,22 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& scene, brume::Film& film)
   }
   else
   {
-    settings.step = this->SampleDistance;
+    settings.step = this->FixedStep();
   }
 
-  const brume::MarchStatistics march = this->Internal->Marcher.render(
-    scene, settings, film, [this](double fraction) { return this->ReportProgress(fraction); });
+  const brume::MarchStatistics march = scene.blend_mode != brume::BlendMode::Composite &&
+      scene.volumes.size() > 1
+    ? this->RenderComponents(scene, settings, film)
+    : this->Internal->Marchers[0].render(scene, settings, film,
+        [this](double fraction) { return this->TellProgress(fraction); });
+  this->SecondsRender = march.seconds;
 
   if (march.rays == 0)
   {
-    this->Internal->LastStep = Internals::StepKey{ 0, 0, false, -1.0 }; // nothing was measured
+    this->Internal->LastStep.clear(); // nothing was measured
   }
 
+  const bool window = this->FinalColorWindow != 1.0f || this->FinalColorLevel != 0.5f;
   nlohmann::json statistics;
   statistics["mapper"] = "raymarch";
   statistics["seconds"] = march.seconds;
@@ -145,6 +224,9 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& scene, brume::Film& film)
   statistics["simd"] = march.simd;
   statistics["step"] = march.step;
   statistics["step_in_voxels"] = march.step / brume::smallest_voxel_edge(scene);
+  statistics["image_sample_distance"] = this->ImageSampleDistanceInUse;
+  statistics["blend_mode"] = brume::blend_mode_name(scene.blend_mode);
+  statistics["volumes"] = scene.volumes.size();
   statistics["tolerance"] = this->Tolerance;
   if (this->AutoAdjustSampleDistances)
   {
@@ -155,19 +237,65 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& scene, brume::Film& film)
   }
   else
   {
-    statistics["step_chosen_by"] = "caller";
+    statistics["step_chosen_by"] =
+      this->LockSampleDistanceToInputSpacing ? "input spacing" : "caller";
   }
-  statistics["effects"] = Effects(scene, march, settings.leave_error);
+  statistics["effects"] = brume::effects_of(scene, settings, march, window);
   statistics["ignored_settings"] = this->IgnoredSettings;
   statistics["non_finite_voxels"] = march.non_finite_voxels;
   statistics["bricks"] = march.bricks;
   statistics["visible_bricks"] = march.visible_bricks;
-  statistics["radiometric"] =
-    !scene.volumes[0].shading.enabled && scene.volumes[0].classification.gradient_opacity.empty();
-  statistics["peak_memory_bytes"] = PeakMemoryBytes();
+  statistics["radiometric"] = brume::is_radiometric(scene, window);
+  statistics["peak_memory_bytes"] = brume::peak_memory_bytes();
   statistics["completed"] = march.completed;
   this->Statistics = statistics.dump(2);
   return march.completed;
+}
+
+brume::MarchStatistics vtkBrumeRayMarchMapper::RenderComponents(
+  const brume::Scene& scene, const brume::MarchSettings& settings, brume::Film& film)
+{
+  // Projections are of one volume. Of several components each has its own, and as in VTK's GPU
+  // mapper their pictures add up by weight, or surfaces are those of the heaviest.
+  std::size_t from = 0;
+  std::size_t until = scene.volumes.size();
+  if (scene.blend_mode == brume::BlendMode::Isosurface)
+  {
+    const auto lighter = [](const brume::Volume& a, const brume::Volume& b)
+    { return a.weight < b.weight; };
+    from = std::max_element(scene.volumes.begin(), scene.volumes.end(), lighter) -
+      scene.volumes.begin();
+    until = from + 1;
+  }
+  brume::MarchStatistics sum;
+  brume::Scene one = scene;
+  one.volumes.resize(1);
+  brume::Film part(film.width, film.height);
+  film = part;
+  for (std::size_t i = from; i < until; ++i)
+  {
+    one.volumes[0] = scene.volumes[i];
+    one.volumes[0].weight = 1.0;
+    const brume::MarchStatistics march = this->Internal->Marchers[i].render(one, settings, part,
+      [&](double fraction)
+      { return this->TellProgress((i - from + fraction) / (until - from)); });
+    Add(sum, march);
+    if (!march.completed)
+    {
+      break;
+    }
+    brume::add_weighted(film, part, until - from == 1 ? 1.0 : scene.volumes[i].weight);
+  }
+  const bool grey = scene.blend_mode == brume::BlendMode::AverageIntensity ||
+    scene.blend_mode == brume::BlendMode::Additive;
+  for (int c = 0; c < 3 && grey; ++c)
+  {
+    for (float& radiance : film.radiance[c])
+    {
+      radiance = std::min(radiance, 1.0f);
+    }
+  }
+  return sum;
 }
 
 void vtkBrumeRayMarchMapper::PrintSelf(ostream& os, vtkIndent indent)
@@ -176,4 +304,10 @@ void vtkBrumeRayMarchMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "AutoAdjustSampleDistances: "
      << (this->AutoAdjustSampleDistances ? "On" : "Off") << "\n";
   os << indent << "SampleDistance: " << this->SampleDistance << "\n";
+  os << indent << "LockSampleDistanceToInputSpacing: "
+     << (this->LockSampleDistanceToInputSpacing ? "On" : "Off") << "\n";
+  os << indent << "ImageSampleDistance: " << this->ImageSampleDistance << "\n";
+  os << indent << "MinimumImageSampleDistance: " << this->MinimumImageSampleDistance << "\n";
+  os << indent << "MaximumImageSampleDistance: " << this->MaximumImageSampleDistance << "\n";
+  os << indent << "UseJittering: " << (this->UseJittering ? "On" : "Off") << "\n";
 }

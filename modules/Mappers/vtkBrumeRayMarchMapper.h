@@ -1,15 +1,18 @@
 /**
  * @class   vtkBrumeRayMarchMapper
- * @brief   marches rays through a volume on the CPU; a drop-in for VTK's composite mode
+ * @brief   marches rays through a volume on the CPU; a drop-in for VTK's ray casters
  *
- * With a plain vtkVolumeProperty the picture is the one that VTK's ray-cast mappers draw in
- * COMPOSITE_BLEND, free of their step and table errors: emission and absorption by transfer
- * functions, σt = −ln(1 − opacity) / ScalarOpacityUnitDistance, gradient opacity, and shading by the
- * renderer's lights. Each step is a stretch of constant extinction and source, sampled at its
- * middle, and the last step of a ray is cut where the volume ends; halving the step changes the
- * picture by no more than its error.
+ * With a plain vtkVolumeProperty the picture is the one that VTK's ray-cast mappers draw, free of
+ * their step and table errors. In COMPOSITE_BLEND: emission and absorption by transfer functions,
+ * σt = −ln(1 − opacity) / ScalarOpacityUnitDistance, gradient opacity, and shading by the renderer's
+ * lights. Each step is a stretch of constant extinction and source, sampled at its middle, and the
+ * last step of a ray is cut where the volume ends; halving the step changes the picture by no more
+ * than its error. Maximum, minimum and average intensity, additive and isosurface blending, cropping,
+ * clipping planes, masks, several components and 2D transfer functions are there as in VTK.
  *
- * docs/user/drop-in.md has what of VTK's mappers is honoured, and docs/theory/optics.md the formulas.
+ * The settings have the names that they have in vtkFixedPointVolumeRayCastMapper and
+ * vtkOpenGLGPUVolumeRayCastMapper. docs/user/drop-in.md tells of each what it does here, and
+ * docs/theory has the formulas.
  */
 #ifndef vtkBrumeRayMarchMapper_h
 #define vtkBrumeRayMarchMapper_h
@@ -18,6 +21,17 @@
 #include "vtkBrumeVolumeMapper.h"
 
 #include <memory> // for std::unique_ptr
+#include <string> // for std::string
+#include <vector> // for std::vector
+
+class vtkRenderWindow;
+class vtkVolumeProperty;
+
+namespace brume
+{
+struct MarchSettings;
+struct MarchStatistics;
+}
 
 class VTKBRUMEMAPPERS_EXPORT vtkBrumeRayMarchMapper : public vtkBrumeVolumeMapper
 {
@@ -28,10 +42,17 @@ public:
 
   ///@{
   /**
-   * Whether the step is chosen by the tolerance. On, the default: the longest of 2, 1, ½, … and
-   * 1/32 of the smallest voxel edge with which the estimated error is within three quarters of Tolerance;
-   * the choice is made from 256 rays of the first picture's camera and kept while data, property
-   * and tolerance stay. Off: SampleDistance.
+   * Whether the mapper looks after quality and speed. On, the default:
+   *
+   * - The step is chosen by the tolerance: the longest of 2, 1, ½, … and 1/32 of the smallest voxel
+   *   edge with which the estimated error is within three quarters of Tolerance; the choice is made
+   *   from 256 rays of the first picture's camera and kept while data, property and tolerance stay.
+   * - The distance between rays is chosen by the time that VTK allocates to the volume, from
+   *   vtkRenderWindow::SetDesiredUpdateRate: one ray a pixel where the last picture was fast enough,
+   *   fewer where it was not, within MinimumImageSampleDistance and MaximumImageSampleDistance. The
+   *   first picture, and each one with time enough (an interactor's StillUpdateRate), is whole.
+   *
+   * Off: SampleDistance and ImageSampleDistance.
    */
   vtkSetClampMacro(AutoAdjustSampleDistances, vtkTypeBool, 0, 1);
   vtkGetMacro(AutoAdjustSampleDistances, vtkTypeBool);
@@ -47,18 +68,148 @@ public:
   vtkGetMacro(SampleDistance, double);
   ///@}
 
+  ///@{
+  /**
+   * Whether, with AutoAdjustSampleDistances off, the distance between samples comes from the spacing
+   * in place of SampleDistance: half the mean edge of a voxel for volumes of 100³ voxels and more,
+   * and less, down to a hundredth of it, for smaller ones, as VTK has it. Default off.
+   */
+  vtkSetClampMacro(LockSampleDistanceToInputSpacing, vtkTypeBool, 0, 1);
+  vtkGetMacro(LockSampleDistanceToInputSpacing, vtkTypeBool);
+  vtkBooleanMacro(LockSampleDistanceToInputSpacing, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * Pixels between rays, in a window, when AutoAdjustSampleDistances is off. 1, the default: one ray
+   * a pixel. 2: a ray for 2 × 2 pixels, interpolated between them. ½: 2 × 2 rays for each pixel,
+   * averaged; below 1 the nearest whole number of them is taken. Range 0.1 to 100; values outside are
+   * clamped. Pictures without a window have one ray a pixel.
+   */
+  vtkSetClampMacro(ImageSampleDistance, float, 0.1f, 100.0f);
+  vtkGetMacro(ImageSampleDistance, float);
+  ///@}
+
+  ///@{
+  /**
+   * The bounds of what AutoAdjustSampleDistances may choose. Defaults 1 and 10, range 0.1 to 100;
+   * values outside are clamped. A minimum below 1 asks for several rays a pixel when there is time.
+   */
+  vtkSetClampMacro(MinimumImageSampleDistance, float, 0.1f, 100.0f);
+  vtkGetMacro(MinimumImageSampleDistance, float);
+  vtkSetClampMacro(MaximumImageSampleDistance, float, 0.1f, 100.0f);
+  vtkGetMacro(MaximumImageSampleDistance, float);
+  ///@}
+
+  ///@{
+  /**
+   * Whether each ray begins a part of a step of its own further on, which turns the bands of steps
+   * that are too long into noise. The parts depend on the pixel alone: the same scene gives the same
+   * picture. Default off.
+   */
+  vtkSetClampMacro(UseJittering, vtkTypeBool, 0, 1);
+  vtkGetMacro(UseJittering, vtkTypeBool);
+  vtkBooleanMacro(UseJittering, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * The distance between rays with which a picture of the volume would take so many seconds, by the
+   * last one, within the bounds above; and the seconds that it would take with one ray a pixel, 0
+   * before the first. Without a volume: of the one that this mapper drew.
+   */
+  float ComputeRequiredImageSampleDistance(
+    float desiredTime, vtkRenderer* renderer, vtkVolume* volume = nullptr);
+  float GetEstimatedRenderTime(vtkRenderer* renderer, vtkVolume* volume = nullptr);
+  ///@}
+
+  /**
+   * Whether the mapper can draw in this window with this property. Always: 1.
+   */
+  virtual int IsRenderSupported(vtkRenderWindow*, vtkVolumeProperty*) { return 1; }
+
+  ///@{
+  /**
+   * Settings of the stock mappers that nothing here needs. A value other than the stock mapper's
+   * default is kept, does nothing, and warns once, by name, at the next render.
+   */
+  vtkSetMacro(InteractiveSampleDistance, float);
+  vtkGetMacro(InteractiveSampleDistance, float);
+  vtkSetClampMacro(UseDepthPass, vtkTypeBool, 0, 1);
+  vtkGetMacro(UseDepthPass, vtkTypeBool);
+  vtkBooleanMacro(UseDepthPass, vtkTypeBool);
+  vtkSetMacro(MaxMemoryInBytes, vtkIdType);
+  vtkGetMacro(MaxMemoryInBytes, vtkIdType);
+  vtkSetClampMacro(MaxMemoryFraction, float, 0.1f, 1.0f);
+  vtkGetMacro(MaxMemoryFraction, float);
+  vtkSetMacro(RenderToImage, vtkTypeBool);
+  vtkGetMacro(RenderToImage, vtkTypeBool);
+  vtkBooleanMacro(RenderToImage, vtkTypeBool);
+  vtkSetMacro(DepthImageScalarType, int);
+  vtkGetMacro(DepthImageScalarType, int);
+  void SetDepthImageScalarTypeToUnsignedChar() { this->SetDepthImageScalarType(VTK_UNSIGNED_CHAR); }
+  void SetDepthImageScalarTypeToUnsignedShort()
+  {
+    this->SetDepthImageScalarType(VTK_UNSIGNED_SHORT);
+  }
+  void SetDepthImageScalarTypeToFloat() { this->SetDepthImageScalarType(VTK_FLOAT); }
+  vtkSetMacro(ClampDepthToBackface, vtkTypeBool);
+  vtkGetMacro(ClampDepthToBackface, vtkTypeBool);
+  vtkBooleanMacro(ClampDepthToBackface, vtkTypeBool);
+  vtkSetMacro(ColorRangeType, int);
+  vtkGetMacro(ColorRangeType, int);
+  vtkSetMacro(ScalarOpacityRangeType, int);
+  vtkGetMacro(ScalarOpacityRangeType, int);
+  vtkSetMacro(GradientOpacityRangeType, int);
+  vtkGetMacro(GradientOpacityRangeType, int);
+  vtkSetStdStringFromCharMacro(Transfer2DYAxisArray);
+  vtkGetCharFromStdStringMacro(Transfer2DYAxisArray);
+  void SetPartitions(unsigned short x, unsigned short y, unsigned short z);
+  ///@}
+
+  enum TFRangeType
+  {
+    SCALAR = 0,
+    NATIVE
+  };
+
 protected:
   vtkBrumeRayMarchMapper();
   ~vtkBrumeRayMarchMapper() override;
 
   bool RenderScene(brume::Scene& scene, brume::Film& film) override;
+  double ChooseImageSampleDistance(
+    vtkRenderer* renderer, vtkVolume* volume, double allocated) override;
+  void AppendIgnoredSettings(vtkVolume* volume, std::vector<std::string>& names) override;
 
 private:
   vtkBrumeRayMarchMapper(const vtkBrumeRayMarchMapper&) = delete;
   void operator=(const vtkBrumeRayMarchMapper&) = delete;
 
+  brume::MarchStatistics RenderComponents(
+    const brume::Scene& scene, const brume::MarchSettings& settings, brume::Film& film);
+  double FixedStep();
+
   vtkTypeBool AutoAdjustSampleDistances = 1;
   double SampleDistance = 1.0;
+  vtkTypeBool LockSampleDistanceToInputSpacing = 0;
+  float ImageSampleDistance = 1.0f;
+  float MinimumImageSampleDistance = 1.0f;
+  float MaximumImageSampleDistance = 10.0f;
+  vtkTypeBool UseJittering = 0;
+
+  float InteractiveSampleDistance = 2.0f;
+  vtkTypeBool UseDepthPass = 0;
+  vtkIdType MaxMemoryInBytes = 0;
+  float MaxMemoryFraction = 0.75f;
+  vtkTypeBool RenderToImage = 0;
+  int DepthImageScalarType = VTK_FLOAT;
+  vtkTypeBool ClampDepthToBackface = 0;
+  int ColorRangeType = SCALAR;
+  int ScalarOpacityRangeType = SCALAR;
+  int GradientOpacityRangeType = SCALAR;
+  std::string Transfer2DYAxisArray;
+  unsigned short Partitions[3] = { 1, 1, 1 };
 
   struct Internals;
   std::unique_ptr<Internals> Internal;

@@ -1,6 +1,9 @@
 #include "vtkBrumeVolumeMapper.h"
 
+#include "ignored_settings.h"
+#include "image_sampling.h"
 #include "scene_from_vtk.h"
+#include "volume_group.h"
 #include "vtkBrumeFilmBlender.h"
 
 #include "Transport/film.h"
@@ -11,27 +14,35 @@
 #include "vtkImageData.h"
 #include "vtkLightCollection.h"
 #include "vtkNew.h"
-#include "vtkPlaneCollection.h"
 #include "vtkPointData.h"
 #include "vtkPropCollection.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
+#include "vtkSmartPointer.h"
 #include "vtkVolume.h"
+#include "vtkVolumeCollection.h"
 #include "vtkVolumeProperty.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <new>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 struct vtkBrumeVolumeMapper::Internals
 {
   brume::SceneFromVTK Builder;
+  brume::Scene Together; ///< this mapper's scene and others', where volumes are drawn as one
+  brume::DrawnWithOthers Drawn;
   vtkNew<vtkBrumeFilmBlender> Blender;
   brume::Film Film;
+  vtkSmartPointer<vtkImageData> Mask;
   vtkRenderWindow* Window = nullptr; ///< the window being drawn into, for its abort check
   std::set<std::string> Warned;      ///< settings that were warned of
+  std::map<std::pair<vtkRenderer*, vtkVolume*>, double> Seconds; ///< of pictures, by keys alone
 };
 
 vtkBrumeVolumeMapper::vtkBrumeVolumeMapper()
@@ -42,9 +53,41 @@ vtkBrumeVolumeMapper::vtkBrumeVolumeMapper()
 
 vtkBrumeVolumeMapper::~vtkBrumeVolumeMapper() = default;
 
-bool vtkBrumeVolumeMapper::ReportProgress(double fraction)
+void vtkBrumeVolumeMapper::SetMaskInput(vtkImageData* mask)
 {
-  this->UpdateProgress(fraction);
+  if (this->Internal->Mask != mask)
+  {
+    this->Internal->Mask = mask;
+    this->Modified();
+  }
+}
+
+vtkImageData* vtkBrumeVolumeMapper::GetMaskInput()
+{
+  return this->Internal->Mask;
+}
+
+void vtkBrumeVolumeMapper::SetFinalColorWindow(float window)
+{
+  if (window == 0.0f || !std::isfinite(window))
+  {
+    vtkWarningMacro("FinalColorWindow must not be " << window << "; kept: "
+                                                    << this->FinalColorWindow);
+    return;
+  }
+  if (window != this->FinalColorWindow)
+  {
+    this->FinalColorWindow = window;
+    this->Modified();
+  }
+}
+
+bool vtkBrumeVolumeMapper::TellProgress(double fraction)
+{
+  if (this->ReportProgress)
+  {
+    this->UpdateProgress(fraction);
+  }
   if (this->Internal->Window && this->Internal->Window->CheckAbortStatus())
   {
     return false;
@@ -52,17 +95,33 @@ bool vtkBrumeVolumeMapper::ReportProgress(double fraction)
   return !this->GetAbortExecute();
 }
 
+double vtkBrumeVolumeMapper::ChooseImageSampleDistance(vtkRenderer*, vtkVolume*, double)
+{
+  return 1.0;
+}
+
+double vtkBrumeVolumeMapper::GetSecondsOfPicture(vtkRenderer* renderer, vtkVolume* volume) const
+{
+  for (const auto& known : this->Internal->Seconds)
+  {
+    if (known.first.first == renderer && (!volume || known.first.second == volume))
+    {
+      return known.second;
+    }
+  }
+  return 0.0;
+}
+
 const brume::Scene* vtkBrumeVolumeMapper::UpdateScene(
   vtkVolume* volume, vtkCamera* camera, vtkLightCollection* lights, int width, int height)
 {
-  return this->UpdateScene(
-    volume, camera, lights, width, height, this->TwoSidedLighting != 0);
+  return this->UpdateScene(volume, { camera, lights, width, height, this->TwoSidedLighting != 0 });
 }
 
-const brume::Scene* vtkBrumeVolumeMapper::UpdateScene(vtkVolume* volume, vtkCamera* camera,
-  vtkLightCollection* lights, int width, int height, bool twoSidedLighting)
+brume::Scene* vtkBrumeVolumeMapper::UpdateScene(
+  vtkVolume* volume, const brume::ViewFromVTK& view)
 {
-  if (!volume || !camera || width <= 0 || height <= 0)
+  if (!volume || !view.camera || view.width <= 0 || view.height <= 0)
   {
     vtkErrorMacro("A render needs a volume, a camera and a size of at least 1 x 1 pixels.");
     return nullptr;
@@ -72,12 +131,13 @@ const brume::Scene* vtkBrumeVolumeMapper::UpdateScene(vtkVolume* volume, vtkCame
   {
     this->GetInputAlgorithm()->Update();
   }
-  this->WarnOfIgnoredSettings(volume);
   std::string wrong;
   try
   {
-    wrong = this->Internal->Builder.Update(
-      this, volume, camera, lights, width, height, twoSidedLighting, this->NumberOfThreads);
+    brume::ViewFromVTK own = view;
+    own.threads = this->NumberOfThreads;
+    wrong = this->Internal->Builder.Update(this, volume,
+      { this->Internal->Mask, this->MaskType == LabelMapMaskType, this->MaskBlendFactor }, own);
   }
   catch (const std::bad_alloc&)
   {
@@ -93,10 +153,33 @@ const brume::Scene* vtkBrumeVolumeMapper::UpdateScene(vtkVolume* volume, vtkCame
     return nullptr;
   }
   brume::Scene& scene = this->Internal->Builder.GetScene();
-  scene.surface_depth.clear();
+  this->WarnOfIgnoredSettings(volume, scene.volumes[0].grid.components);
   this->SecondsScene =
     std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return &scene;
+}
+
+brume::Scene* vtkBrumeVolumeMapper::UpdateScene(
+  vtkVolume* first, const std::vector<vtkVolume*>& others, const brume::ViewFromVTK& view)
+{
+  brume::Scene* scene = this->UpdateScene(first, view);
+  if (!scene || others.empty())
+  {
+    return scene;
+  }
+  brume::Scene& together = this->Internal->Together;
+  together = *scene;
+  for (vtkVolume* volume : others)
+  {
+    auto* mapper = vtkBrumeVolumeMapper::SafeDownCast(volume->GetMapper());
+    if (brume::Scene* other = mapper->UpdateScene(volume, view))
+    {
+      together.volumes.insert(
+        together.volumes.end(), other->volumes.begin(), other->volumes.end());
+      this->SecondsScene += mapper->SecondsScene;
+    }
+  }
+  return &together;
 }
 
 bool vtkBrumeVolumeMapper::RenderUpdated(brume::Scene& scene, brume::Film& film)
@@ -108,6 +191,10 @@ bool vtkBrumeVolumeMapper::RenderUpdated(brume::Scene& scene, brume::Film& film)
   try
   {
     completed = this->RenderScene(scene, film);
+    if (this->FinalColorWindow != 1.0f || this->FinalColorLevel != 0.5f)
+    {
+      brume::apply_window_level(film, this->FinalColorWindow, this->FinalColorLevel);
+    }
   }
   catch (const std::invalid_argument& error)
   {
@@ -124,12 +211,48 @@ bool vtkBrumeVolumeMapper::RenderUpdated(brume::Scene& scene, brume::Film& film)
 bool vtkBrumeVolumeMapper::RenderFilm(
   vtkVolume* volume, vtkCamera* camera, vtkLightCollection* lights, brume::Film& film)
 {
-  if (!this->UpdateScene(volume, camera, lights, film.width, film.height))
+  brume::Scene* scene = this->UpdateScene(
+    volume, { camera, lights, film.width, film.height, this->TwoSidedLighting != 0 });
+  if (!scene)
   {
     return false;
   }
   this->Internal->Window = nullptr;
-  return this->RenderUpdated(this->Internal->Builder.GetScene(), film);
+  this->ImageSampleDistanceInUse = 1.0;
+  return this->RenderUpdated(*scene, film);
+}
+
+bool vtkBrumeVolumeMapper::RenderFilm(vtkVolumeCollection* volumes, vtkCamera* camera,
+  vtkLightCollection* lights, brume::Film& film)
+{
+  std::vector<vtkVolume*> others;
+  std::set<vtkAbstractVolumeMapper*> mappers;
+  vtkVolume* first = nullptr;
+  vtkCollectionSimpleIterator it;
+  if (volumes)
+  {
+    volumes->InitTraversal(it);
+    while (vtkVolume* volume = volumes->GetNextVolume(it))
+    {
+      const bool fits = first ? MayJoin(first, volume) : volume->GetMapper() == this;
+      if (!fits || !mappers.insert(volume->GetMapper()).second)
+      {
+        vtkErrorMacro("Volumes are drawn as one where each has a mapper of its own of the same "
+                      "class, with CombineVolumes on, in composite mode, and the first has this.");
+        return false;
+      }
+      first ? others.push_back(volume) : static_cast<void>(first = volume);
+    }
+  }
+  brume::Scene* scene = this->UpdateScene(
+    first, others, { camera, lights, film.width, film.height, this->TwoSidedLighting != 0 });
+  if (!scene)
+  {
+    return false;
+  }
+  this->Internal->Window = nullptr;
+  this->ImageSampleDistanceInUse = 1.0;
+  return this->RenderUpdated(*scene, film);
 }
 
 bool vtkBrumeVolumeMapper::RenderImage(vtkVolume* volume, vtkCamera* camera,
@@ -195,24 +318,12 @@ void vtkBrumeVolumeMapper::ResetClippingRange(vtkVolume* volume, vtkCamera* came
   camera->SetClippingRange(nearest, farthest);
 }
 
-void vtkBrumeVolumeMapper::WarnOfIgnoredSettings(vtkVolume* volume)
+void vtkBrumeVolumeMapper::WarnOfIgnoredSettings(vtkVolume* volume, int components)
 {
-  this->IgnoredSettings.clear();
-  const auto ignored = [this](bool is, const char* setting)
-  {
-    if (is)
-    {
-      this->IgnoredSettings.emplace_back(setting);
-    }
-  };
-  vtkVolumeProperty* property = volume->GetProperty();
-  ignored(this->GetBlendMode() != vtkVolumeMapper::COMPOSITE_BLEND,
-    "BlendMode other than COMPOSITE_BLEND");
-  ignored(this->GetCropping() != 0, "Cropping");
-  ignored(this->GetClippingPlanes() && this->GetClippingPlanes()->GetNumberOfItems() > 0,
-    "ClippingPlanes");
-  ignored(property->GetTransferFunctionMode() == vtkVolumeProperty::TF_2D,
-    "TransferFunctionMode TF_2D");
+  this->IgnoredSettings = brume::ignored_settings(this, volume,
+    { this->Internal->Mask, this->MaskType == LabelMapMaskType, this->MaskBlendFactor },
+    components);
+  this->AppendIgnoredSettings(volume, this->IgnoredSettings);
   for (const std::string& setting : this->IgnoredSettings)
   {
     if (this->Internal->Warned.insert(setting).second)
@@ -222,9 +333,14 @@ void vtkBrumeVolumeMapper::WarnOfIgnoredSettings(vtkVolume* volume)
   }
 }
 
-void vtkBrumeVolumeMapper::ReadSurfaceDepth(vtkRenderer* renderer, brume::Scene& scene,
-  const brume::Film& film, int left, int bottom) const
+std::vector<float> vtkBrumeVolumeMapper::ReadSurfaceDepth(
+  vtkRenderer* renderer, int left, int bottom, int width, int height) const
 {
+  std::vector<float> result;
+  if (!this->IntermixIntersectingGeometry)
+  {
+    return result;
+  }
   // Only where something else is shown that may have written depth.
   vtkPropCollection* props = renderer->GetViewProps();
   vtkCollectionSimpleIterator it;
@@ -236,45 +352,98 @@ void vtkBrumeVolumeMapper::ReadSurfaceDepth(vtkRenderer* renderer, brume::Scene&
   }
   if (!others)
   {
-    return;
+    return result;
   }
-  scene.surface_depth.resize(film.size());
-  renderer->GetRenderWindow()->GetZbufferData(left, bottom, left + film.width - 1,
-    bottom + film.height - 1, scene.surface_depth.data());
-  for (float& depth : scene.surface_depth)
+  result.resize(static_cast<std::size_t>(width) * height);
+  renderer->GetRenderWindow()->GetZbufferData(
+    left, bottom, left + width - 1, bottom + height - 1, result.data());
+  for (float& depth : result)
   {
     depth = 2.0f * depth - 1.0f; // the depth buffer's [0, 1] to the clip cube's [-1, 1]
   }
+  return result;
+}
+
+bool vtkBrumeVolumeMapper::MayJoin(vtkVolume* first, vtkVolume* other)
+{
+  auto* a = vtkBrumeVolumeMapper::SafeDownCast(first->GetMapper());
+  auto* b = vtkBrumeVolumeMapper::SafeDownCast(other->GetMapper());
+  const auto joins = [](vtkBrumeVolumeMapper* mapper)
+  { return mapper && mapper->CombineVolumes && mapper->GetBlendMode() == COMPOSITE_BLEND; };
+  return joins(a) && joins(b) && a != b && std::string(a->GetClassName()) == b->GetClassName() &&
+    b->GetDataObjectInput();
 }
 
 void vtkBrumeVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
 {
+  this->TimeToDraw = 0.0;
   const auto start = std::chrono::steady_clock::now();
   int width = 0;
   int height = 0;
   int left = 0;
   int bottom = 0;
   renderer->GetTiledSizeAndOrigin(&width, &height, &left, &bottom);
-  if (width <= 0 || height <= 0)
+  if (width <= 0 || height <= 0 || this->Internal->Drawn.Includes(renderer, volume))
   {
     return;
   }
-  if (!this->UpdateScene(volume, renderer->GetActiveCamera(), renderer->GetLights(), width, height,
-        renderer->GetTwoSidedLighting() != 0))
+  std::vector<vtkVolume*> others;
+  double allocated = volume->GetAllocatedRenderTime();
+  if (this->CombineVolumes && this->GetBlendMode() == COMPOSITE_BLEND)
+  {
+    std::set<vtkAbstractVolumeMapper*> mappers;
+    for (vtkVolume* other : brume::overlapping_volumes(renderer, volume, &MayJoin))
+    {
+      // A mapper that serves several volumes can hold the scene of one at a time.
+      if (mappers.insert(other->GetMapper()).second)
+      {
+        others.push_back(other);
+        allocated += other->GetAllocatedRenderTime();
+      }
+    }
+  }
+  brume::Scene* scene = this->UpdateScene(volume, others,
+    { renderer->GetActiveCamera(), renderer->GetLights(), width, height,
+      renderer->GetTwoSidedLighting() != 0 });
+  for (vtkVolume* other : others)
+  {
+    vtkBrumeVolumeMapper::SafeDownCast(other->GetMapper())
+      ->Internal->Drawn.Remember(renderer, other);
+  }
+  if (!scene)
   {
     return;
   }
+  const brume::ImageSampling rays(
+    width, height, this->ChooseImageSampleDistance(renderer, volume, allocated));
   brume::Film& film = this->Internal->Film;
-  if (film.width != width || film.height != height)
+  if (film.width != rays.width || film.height != rays.height)
   {
-    film = brume::Film(width, height);
+    film = brume::Film(rays.width, rays.height);
   }
-  brume::Scene& scene = this->Internal->Builder.GetScene();
-  this->ReadSurfaceDepth(renderer, scene, film, left, bottom);
+  scene->surface_depth = this->ReadSurfaceDepth(renderer, left, bottom, width, height);
+  if (!scene->surface_depth.empty() && (rays.width != width || rays.height != height))
+  {
+    scene->surface_depth = brume::at_rays(scene->surface_depth, width, height, rays);
+  }
+  this->ImageSampleDistanceInUse = rays.distance;
   this->Internal->Window = renderer->GetRenderWindow();
-  const bool completed = this->RenderUpdated(scene, film);
+  const bool completed = this->RenderUpdated(*scene, film);
   this->Internal->Window = nullptr;
-  if (completed && !this->Internal->Blender->Blend(film, renderer))
+  for (vtkVolume* other : others)
+  {
+    vtkBrumeVolumeMapper::SafeDownCast(other->GetMapper())->Statistics = this->Statistics;
+  }
+  if (!completed)
+  {
+    return;
+  }
+  this->Internal->Seconds[{ renderer, volume }] = this->SecondsRender *
+    (static_cast<double>(width) * height) / (static_cast<double>(rays.width) * rays.height);
+  const bool shown = rays.per_pixel > 1
+    ? this->Internal->Blender->Blend(brume::averaged(film, rays.per_pixel), renderer)
+    : this->Internal->Blender->Blend(film, renderer);
+  if (!shown)
   {
     vtkErrorMacro("The picture was not shown: the render window is not an OpenGL window.");
   }
@@ -285,6 +454,7 @@ void vtkBrumeVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
 void vtkBrumeVolumeMapper::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Internal->Blender->ReleaseGraphicsResources(window);
+  this->Internal->Seconds.clear();
 }
 
 void vtkBrumeVolumeMapper::PrintSelf(ostream& os, vtkIndent indent)
@@ -293,5 +463,14 @@ void vtkBrumeVolumeMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "TwoSidedLighting: " << (this->TwoSidedLighting ? "On" : "Off") << "\n";
+  os << indent << "CombineVolumes: " << (this->CombineVolumes ? "On" : "Off") << "\n";
+  os << indent << "IntermixIntersectingGeometry: "
+     << (this->IntermixIntersectingGeometry ? "On" : "Off") << "\n";
+  os << indent << "MaskInput: " << this->Internal->Mask << "\n";
+  os << indent << "MaskType: " << this->MaskType << "\n";
+  os << indent << "MaskBlendFactor: " << this->MaskBlendFactor << "\n";
+  os << indent << "FinalColorWindow: " << this->FinalColorWindow << "\n";
+  os << indent << "FinalColorLevel: " << this->FinalColorLevel << "\n";
+  os << indent << "ReportProgress: " << (this->ReportProgress ? "On" : "Off") << "\n";
   os << indent << "Statistics: " << this->Statistics << "\n";
 }

@@ -13,8 +13,9 @@
  *
  * It reads the vtkVolumeProperty, the renderer's lights and camera and the prop's matrix as VTK's
  * mappers do, makes its picture on the CPU, and blends it into the frame. Opaque geometry that was
- * drawn before hides what is behind it. Input is a vtkImageData of one component of any type, or of
- * four dependent components of unsigned char (red, green, blue, opacity); points or cells.
+ * drawn before hides what is behind it. Input is a vtkImageData of any type, points or cells: of one
+ * to four independent components, of two dependent ones (colour, opacity), or of four dependent ones
+ * of unsigned char (red, green, blue, opacity).
  *
  * RenderFilm() and RenderImage() make the same picture with no window, no OpenGL and no display.
  *
@@ -39,11 +40,13 @@
 class vtkCamera;
 class vtkImageData;
 class vtkLightCollection;
+class vtkVolumeCollection;
 
 namespace brume
 {
 struct Film;
 struct Scene;
+struct ViewFromVTK;
 }
 
 class VTKBRUMEMAPPERS_EXPORT vtkBrumeVolumeMapper : public vtkVolumeMapper
@@ -79,6 +82,88 @@ public:
   vtkSetMacro(TwoSidedLighting, vtkTypeBool);
   vtkGetMacro(TwoSidedLighting, vtkTypeBool);
   vtkBooleanMacro(TwoSidedLighting, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * A mask, as vtkGPUVolumeRayCastMapper has it: an image of one component of unsigned char over the
+   * volume's own voxels. One of other dimensions is stretched over the volume and read at the
+   * nearest of its voxels. Default null: none.
+   */
+  virtual void SetMaskInput(vtkImageData* mask);
+  vtkImageData* GetMaskInput();
+  ///@}
+
+  enum
+  {
+    BinaryMaskType = 0,
+    LabelMapMaskType
+  };
+
+  ///@{
+  /**
+   * What the mask's voxels say. Binary: 0 hides the voxel, anything else shows it. Label map, the
+   * default: 0 draws with the volume's own functions, and a label with those of
+   * vtkVolumeProperty::SetLabelColor, SetLabelScalarOpacity and SetLabelGradientOpacity, or the
+   * volume's own where it has none (but no gradient opacity). Of independent components a label map
+   * is ignored with a warning.
+   */
+  vtkSetClampMacro(MaskType, int, BinaryMaskType, LabelMapMaskType);
+  vtkGetMacro(MaskType, int);
+  void SetMaskTypeToBinary() { this->SetMaskType(BinaryMaskType); }
+  void SetMaskTypeToLabelMap() { this->SetMaskType(LabelMapMaskType); }
+  ///@}
+
+  ///@{
+  /**
+   * How much of a label's colour and opacity is its own rather than the volume's. Default 1: its own
+   * alone. Range 0 to 1; values outside are clamped.
+   */
+  vtkSetClampMacro(MaskBlendFactor, float, 0.0f, 1.0f);
+  vtkGetMacro(MaskBlendFactor, float);
+  ///@}
+
+  ///@{
+  /**
+   * Whether volumes that overlap are drawn as one in composite mode, with the sum of their
+   * extinctions: of a renderer's visible volumes whose mappers are of the same class and have this
+   * on, those whose bounds meet. The first of them that is drawn in a frame draws all, with its
+   * mapper's tolerance, threads and sampling; each keeps its own property, mask, cropping, clipping
+   * planes and matrix. Off: this volume is blended over what is in the frame, as the stock mappers
+   * do. Default on.
+   */
+  vtkSetMacro(CombineVolumes, vtkTypeBool);
+  vtkGetMacro(CombineVolumes, vtkTypeBool);
+  vtkBooleanMacro(CombineVolumes, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether opaque geometry of the renderer hides what is behind it. Default on.
+   */
+  vtkSetClampMacro(IntermixIntersectingGeometry, vtkTypeBool, 0, 1);
+  vtkGetMacro(IntermixIntersectingGeometry, vtkTypeBool);
+  vtkBooleanMacro(IntermixIntersectingGeometry, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * A brightness window over the finished picture: radiance becomes
+   * radiance / window + (½ − level / window) · opacity, not below 0. Default window 1, level ½: as
+   * it is. The window may be negative, which turns brightness round; 0 is refused with a warning.
+   */
+  virtual void SetFinalColorWindow(float window);
+  vtkGetMacro(FinalColorWindow, float);
+  vtkSetMacro(FinalColorLevel, float);
+  vtkGetMacro(FinalColorLevel, float);
+  ///@}
+
+  ///@{
+  /**
+   * Whether ProgressEvent is sent. Default on. Renders can be aborted either way.
+   */
+  vtkSetMacro(ReportProgress, bool);
+  vtkGetMacro(ReportProgress, bool);
   ///@}
 
   /**
@@ -119,6 +204,13 @@ public:
     vtkVolume* volume, vtkCamera* camera, vtkLightCollection* lights, brume::Film& film);
 
   /**
+   * Several volumes as one, with the sum of their extinctions: the first of `volumes` has this
+   * mapper, and the others have mappers of the same class, one each, in composite mode.
+   */
+  bool RenderFilm(
+    vtkVolumeCollection* volumes, vtkCamera* camera, vtkLightCollection* lights, brume::Film& film);
+
+  /**
    * The scene as Transport sees it, brought up to date for a picture of this size; for measuring
    * pictures against brume::render_reference. Null, after a vtkErrorMacro, where there is nothing to
    * draw. Valid until the next call of any method of the mapper or change of its input.
@@ -143,13 +235,38 @@ protected:
    * To be called by RenderScene now and then, from the thread that called it: sends ProgressEvent,
    * asks the window, returns false when the render is to stop.
    */
-  bool ReportProgress(double fraction);
+  bool TellProgress(double fraction);
+
+  /**
+   * Pixels between rays for the volume's next picture in a window, below 1 for several rays a pixel;
+   * 1 unless a subclass knows better. `allocated`: the seconds that VTK gives to it.
+   */
+  virtual double ChooseImageSampleDistance(
+    vtkRenderer* renderer, vtkVolume* volume, double allocated);
+
+  /// Adds settings that are not followed, as they stand now, by name.
+  virtual void AppendIgnoredSettings(vtkVolume*, std::vector<std::string>&) {}
+
+  /// Seconds that a picture of the volume in this renderer would have taken with one ray a pixel, by
+  /// the last render; 0 before. Without a volume: of any.
+  double GetSecondsOfPicture(vtkRenderer* renderer, vtkVolume* volume) const;
 
   /// Seconds that bringing the last scene up to date took.
   double SecondsScene = 0.0;
+  /// Seconds of the last render alone; set by RenderScene.
+  double SecondsRender = 0.0;
+  /// Pixels between the rays of the picture that is being made.
+  double ImageSampleDistanceInUse = 1.0;
   double Tolerance = 0.004;
   int NumberOfThreads = 0;
   vtkTypeBool TwoSidedLighting = 1;
+  vtkTypeBool CombineVolumes = 1;
+  vtkTypeBool IntermixIntersectingGeometry = 1;
+  int MaskType = LabelMapMaskType;
+  float MaskBlendFactor = 1.0f;
+  float FinalColorWindow = 1.0f;
+  float FinalColorLevel = 0.5f;
+  bool ReportProgress = true;
   std::string Statistics;
   /// Settings of the last scene's VTK objects that the mapper does not follow, by name.
   std::vector<std::string> IgnoredSettings;
@@ -158,12 +275,14 @@ private:
   vtkBrumeVolumeMapper(const vtkBrumeVolumeMapper&) = delete;
   void operator=(const vtkBrumeVolumeMapper&) = delete;
 
-  const brume::Scene* UpdateScene(vtkVolume* volume, vtkCamera* camera, vtkLightCollection* lights,
-    int width, int height, bool twoSidedLighting);
+  brume::Scene* UpdateScene(vtkVolume* volume, const brume::ViewFromVTK& view);
+  brume::Scene* UpdateScene(
+    vtkVolume* first, const std::vector<vtkVolume*>& others, const brume::ViewFromVTK& view);
   bool RenderUpdated(brume::Scene& scene, brume::Film& film);
-  void WarnOfIgnoredSettings(vtkVolume* volume);
-  void ReadSurfaceDepth(vtkRenderer* renderer, brume::Scene& scene, const brume::Film& film,
-    int left, int bottom) const;
+  void WarnOfIgnoredSettings(vtkVolume* volume, int components);
+  std::vector<float> ReadSurfaceDepth(
+    vtkRenderer* renderer, int left, int bottom, int width, int height) const;
+  static bool MayJoin(vtkVolume* first, vtkVolume* other);
 
   struct Internals;
   std::unique_ptr<Internals> Internal;

@@ -1,6 +1,7 @@
 #include "Transport/bricks.h"
 
 #include "Transport/row_ranges.h"
+#include "Transport/sparse_bricks.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/info.h>
@@ -46,7 +47,7 @@ struct Columns
 template <class T>
 void measure(const Grid& grid, BrickRanges& result)
 {
-  constexpr int edge = BrickRanges::edge;
+  const int edge = result.edge();
   const int* n = grid.dims;
   const std::size_t stride = grid.components;
   const std::size_t row_values = n[0] * stride;
@@ -161,6 +162,8 @@ void measure_type(const Grid& grid, BrickRanges& result)
     case VoxelType::Float32:
       measure<float>(grid, result);
       break;
+    case VoxelType::Float16: // refused by Grid::validate
+      break;
   }
 }
 
@@ -169,10 +172,14 @@ void measure_type(const Grid& grid, BrickRanges& result)
 BrickRanges measure_bricks(const Grid& grid, int threads)
 {
   grid.validate();
+  if (grid.sparse)
+  {
+    return measure_sparse_bricks(*grid.sparse, threads);
+  }
   BrickRanges result;
   for (int axis = 0; axis < 3; ++axis)
   {
-    result.dims[axis] = (grid.dims[axis] - 1) / BrickRanges::edge + 1;
+    result.dims[axis] = (grid.dims[axis] - 1) / result.edge() + 1;
   }
   result.minimum.resize(result.size());
   result.maximum.resize(result.size());
@@ -256,6 +263,7 @@ VisibleBricks find_visible_bricks(const BrickRanges& ranges,
   const std::function<bool(float, float)>& can_show, float empty_value)
 {
   VisibleBricks result;
+  result.shift = ranges.shift;
   std::copy(ranges.dims, ranges.dims + 3, result.dims);
   const int nx = ranges.dims[0];
   const int ny = ranges.dims[1];

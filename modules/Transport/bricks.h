@@ -11,14 +11,17 @@
 namespace brume
 {
 
-/// Ranges of the values that can be met inside bricks of `edge`³ cells.
+/// Ranges of the values that can be met inside bricks of edge()³ cells.
 ///
 /// Brick (i, j, k) covers index space from edge·i to edge·(i + 1) along x, and so on. Its range is
 /// that of all voxels that interpolation can reach from there. Of several components it is the
 /// range of Grid::component.
 struct BrickRanges
 {
-  static constexpr int edge = 8;
+  /// log2 of the edge: 3 for dense grids. Sparse ones in a wide box take larger bricks, so that
+  /// there are at most 2¹⁵, or twice as many as the grid has bricks of its own if that is more.
+  int shift = 3;
+  int edge() const { return 1 << shift; }
 
   int dims[3] = { 0, 0, 0 };
   std::vector<float> minimum;
@@ -42,6 +45,7 @@ BrickRanges measure_bricks(const Grid& grid, int threads = 0);
 /// leap over the cube of 2·distance − 1 bricks around.
 struct VisibleBricks
 {
+  int shift = 3; ///< log2 of a brick's edge, as BrickRanges has it
   int dims[3] = { 0, 0, 0 };
   std::vector<std::int32_t> distance;
   std::size_t visible = 0; ///< bricks that can be seen

@@ -1,4 +1,7 @@
 // Reading a grid at the places of a packet: trilinear or nearest, in the voxels' own type.
+//
+// Integrators call the functions of FieldFunctions and so know nothing of voxel types; Field has
+// them for one type, compiled in field_<type>.cxx. Included once for each SIMD target.
 #if defined(BRUME_FIELD_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef BRUME_FIELD_INL_H
 #undef BRUME_FIELD_INL_H
@@ -6,9 +9,9 @@
 #define BRUME_FIELD_INL_H
 #endif
 
+#include "Transport/field_view.h"
 #include "Transport/packet-inl.h"
 
-#include <limits>
 #include <type_traits>
 
 HWY_BEFORE_NAMESPACE();
@@ -17,32 +20,81 @@ namespace brume
 namespace HWY_NAMESPACE
 {
 
-/// One of the voxels' components, the last (of 4: opacity's scalar), at any place of the grid.
-///
-/// Voxels of 8 and 16 bits are fetched with one 32-bit gather for two neighbours along x.
-template <class T, int Components>
+/// A packet of rays in a grid's index space. Positions along it are in steps.
+struct Line
+{
+  Vec3<Real> begin;
+  Vec3<Real> delta; ///< one step
+
+  HWY_INLINE Vec3<Real> at(Real position) const { return begin + delta * position; }
+};
+
+/// What integrators ask of a field.
+struct FieldFunctions
+{
+  /// values[i] at positions[i] of the line, for i < count.
+  void (*values)(const FieldView&, const Line&, const Real* positions, int count, Real* values);
+  /// Gradient at a place of index space by central differences of one voxel, interpolated, in
+  /// values per voxel.
+  void (*gradient)(const FieldView&, const Vec3<Real>& place, Vec3<Real>& gradient);
+};
+
+FieldFunctions field_uint8(const FieldView& view);
+FieldFunctions field_int8(const FieldView& view);
+FieldFunctions field_uint16(const FieldView& view);
+FieldFunctions field_int16(const FieldView& view);
+FieldFunctions field_float32(const FieldView& view);
+
+HWY_INLINE FieldFunctions field_functions(const FieldView& view)
+{
+  switch (view.type)
+  {
+    case VoxelType::UInt8:
+      return field_uint8(view);
+    case VoxelType::Int8:
+      return field_int8(view);
+    case VoxelType::UInt16:
+      return field_uint16(view);
+    case VoxelType::Int16:
+      return field_int16(view);
+    case VoxelType::Float32:
+      return field_float32(view);
+  }
+  return {};
+}
+
+/// A component of type T. Where the next voxel along x lies in the same 32 bits, SecondBit is where
+/// it begins there, and one gather fetches both; 0 where it does not.
+template <class T, int SecondBit>
 class Field
 {
 public:
-  Field(const Grid& grid, bool non_finite, float empty_value)
-    : Base(static_cast<const std::uint8_t*>(grid.voxels))
-    , NonFinite(non_finite)
-    , EmptyValue(empty_value)
+  HWY_INLINE explicit Field(const FieldView& view)
+    : View(view)
+    , LastWord(integer(static_cast<int>(view.far ? 0 : view.last_word)))
   {
-    constexpr std::size_t voxel = sizeof(T) * Components;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      Last[axis] = grid.dims[axis] - 1;
-      LastCell[axis] = grid.dims[axis] > 1 ? grid.dims[axis] - 2 : 0;
-    }
-    Stride[0] = voxel;
-    Stride[1] = voxel * grid.dims[0];
-    Stride[2] = voxel * grid.dims[0] * grid.dims[1];
-    LastWord = grid.bytes() - sizeof(std::int32_t);
-    // Offsets of gathers are 32 bits wide.
-    Far = grid.bytes() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
   }
 
+  static void values(const FieldView& view,
+    const Line& line,
+    const Real* positions,
+    int count,
+    Real* values)
+  {
+    const Field field(view);
+    for (int i = 0; i < count; ++i)
+    {
+      values[i] = field.value(field.locate(line.at(positions[i])));
+    }
+  }
+
+  static void gradient(const FieldView& view, const Vec3<Real>& place, Vec3<Real>& gradient)
+  {
+    const Field field(view);
+    gradient = field.gradient(field.locate(place));
+  }
+
+private:
   /// The eight voxels around a place, as one cell and the place in it.
   struct Cell
   {
@@ -50,49 +102,82 @@ public:
     Real fraction[3];
   };
 
-  template <bool Linear>
   HWY_INLINE Cell locate(const Vec3<Real>& place) const
   {
     const Real* coordinate[3] = { &place.x, &place.y, &place.z };
     Cell cell;
     for (int axis = 0; axis < 3; ++axis)
     {
-      Real p = clamp(*coordinate[axis], hn::Zero(float_tag), real(static_cast<float>(Last[axis])));
-      if (!Linear)
+      Real p =
+        clamp(*coordinate[axis], hn::Zero(float_tag), real(static_cast<float>(View.last[axis])));
+      if (!View.linear)
       {
         p = hn::Floor(p + real(0.5f));
       }
-      cell.index[axis] = hn::Min(hn::ConvertTo(int_tag, p), integer(LastCell[axis]));
+      cell.index[axis] = hn::Min(hn::ConvertTo(int_tag, p), integer(View.last_cell[axis]));
       cell.fraction[axis] = p - hn::ConvertTo(float_tag, cell.index[axis]);
     }
     return cell;
   }
 
-  /// The value at the place. Trilinear also serves the nearest voxel: its fractions are 0 or 1.
+  /// Two neighbours along x.
+  struct Pair
+  {
+    Real first, second;
+  };
+
+  /// Trilinear also serves the nearest voxel: its fractions are 0 or 1.
   HWY_INLINE Real value(const Cell& cell) const
   {
-    Real face[2];
-    for (int z = 0; z < 2; ++z)
+    Pair rows[4];
+    if (HWY_UNLIKELY(View.far))
     {
-      Real edge[2];
-      for (int y = 0; y < 2; ++y)
+      for (int row = 0; row < 4; ++row)
       {
-        Real a, b;
-        fetch_pair(cell.index[0], row(cell, 1, y), row(cell, 2, z), a, b);
-        edge[y] = lerp(a, b, cell.fraction[0]);
+        rows[row] = far_pair(cell.index[0],
+          hn::Min(cell.index[1] + integer(row & 1), last(1)),
+          hn::Min(cell.index[2] + integer(row >> 1), last(2)));
       }
-      face[z] = lerp(edge[0], edge[1], cell.fraction[1]);
     }
-    return lerp(face[0], face[1], cell.fraction[2]);
+    else
+    {
+      const Int offset = offset_of(cell.index);
+      const std::ptrdiff_t y = View.row[1];
+      const std::ptrdiff_t z = View.row[2];
+      // Words near the end of the memory are read further down: seldom, and for all or none.
+      const std::int64_t reach = static_cast<std::int64_t>(View.last_word) - y - z -
+                                 (SecondBit ? 0 : static_cast<std::int64_t>(View.stride[0]));
+      if (HWY_LIKELY(reach >= 0) &&
+          HWY_LIKELY(hn::AllFalse(int_tag, offset > integer(static_cast<int>(reach)))))
+      {
+        rows[0] = pair<false>(offset, 0);
+        rows[1] = pair<false>(offset, y);
+        rows[2] = pair<false>(offset, z);
+        rows[3] = pair<false>(offset, y + z);
+      }
+      else
+      {
+        rows[0] = pair<true>(offset, 0);
+        rows[1] = pair<true>(offset, y);
+        rows[2] = pair<true>(offset, z);
+        rows[3] = pair<true>(offset, y + z);
+      }
+    }
+    const Real x = cell.fraction[0];
+    const Real y = cell.fraction[1];
+    const Real low =
+      lerp(lerp(rows[0].first, rows[0].second, x), lerp(rows[1].first, rows[1].second, x), y);
+    const Real high =
+      lerp(lerp(rows[2].first, rows[2].second, x), lerp(rows[3].first, rows[3].second, x), y);
+    return lerp(low, high, cell.fraction[2]);
   }
 
-  /// The value, and the gradient by central differences of one voxel, in values per voxel.
   /// Trilinear interpolation commutes with differences: this is the interpolated gradient.
-  HWY_INLINE Real value_and_gradient(const Cell& cell, Vec3<Real>& gradient) const
+  HWY_INLINE Vec3<Real> gradient(const Cell& cell) const
   {
     const Int before_x = hn::Max(cell.index[0] - integer(1), integer(0));
-    const Int after_x = hn::Min(cell.index[0] + integer(2), integer(Last[0]));
-    // Rows −1, 0, 1, 2 along y and z: the middle four carry the value and the slope along x.
+    const Int after_x = hn::Min(cell.index[0] + integer(2), last(0));
+    // Rows −1, 0, 1, 2 along y and z: the middle four carry the slope along x.
     Real middle[2][2];
     Real slope_x[2];
     for (int z = 0; z < 2; ++z)
@@ -102,17 +187,14 @@ public:
       {
         const Int j = row(cell, 1, y);
         const Int k = row(cell, 2, z);
-        Real a, b;
-        fetch_pair(cell.index[0], j, k, a, b);
-        const Real before = fetch(before_x, j, k);
-        const Real after = fetch(after_x, j, k);
-        middle[z][y] = lerp(a, b, cell.fraction[0]);
-        slope[y] = lerp(b - before, after - a, cell.fraction[0]);
+        const Pair here = safe_pair(cell.index[0], j, k);
+        const Real before = single(before_x, j, k);
+        const Real after = single(after_x, j, k);
+        middle[z][y] = lerp(here.first, here.second, cell.fraction[0]);
+        slope[y] = lerp(here.second - before, after - here.first, cell.fraction[0]);
       }
       slope_x[z] = lerp(slope[0], slope[1], cell.fraction[1]);
     }
-    gradient.x = lerp(slope_x[0], slope_x[1], cell.fraction[2]) * real(0.5f);
-
     Real slope_y[2];
     Real slope_z[2];
     for (int side = 0; side < 2; ++side)
@@ -128,78 +210,104 @@ public:
       slope_z[side] =
         lerp(middle[1][side] - z_before, z_after - middle[0][side], cell.fraction[2]);
     }
-    gradient.y = lerp(slope_y[0], slope_y[1], cell.fraction[2]) * real(0.5f);
-    gradient.z = lerp(slope_z[0], slope_z[1], cell.fraction[1]) * real(0.5f);
-
-    const Real low = lerp(middle[0][0], middle[0][1], cell.fraction[1]);
-    const Real high = lerp(middle[1][0], middle[1][1], cell.fraction[1]);
-    return lerp(low, high, cell.fraction[2]);
+    const Real half = real(0.5f);
+    return { lerp(slope_x[0], slope_x[1], cell.fraction[2]) * half,
+      lerp(slope_y[0], slope_y[1], cell.fraction[2]) * half,
+      lerp(slope_z[0], slope_z[1], cell.fraction[1]) * half };
   }
 
-  /// Red, green and blue of a grid of 4 components, in [0, 1].
-  HWY_INLINE Vec3<Real> colour(const Cell& cell) const
-  {
-    Real channel[3];
-    for (int c = 0; c < 3; ++c)
-    {
-      Real face[2];
-      for (int z = 0; z < 2; ++z)
-      {
-        Real line[2];
-        for (int y = 0; y < 2; ++y)
-        {
-          const Int j = row(cell, 1, y);
-          const Int k = row(cell, 2, z);
-          line[y] = lerp(component(cell.index[0], j, k, c),
-            component(cell.index[0] + integer(1), j, k, c), cell.fraction[0]);
-        }
-        face[z] = lerp(line[0], line[1], cell.fraction[1]);
-      }
-      channel[c] = lerp(face[0], face[1], cell.fraction[2]) * real(1.0f / 255.0f);
-    }
-    return { channel[0], channel[1], channel[2] };
-  }
+  HWY_INLINE Int last(int axis) const { return integer(View.last[axis]); }
 
-private:
   /// The cell's row `offset` along an axis, kept within the grid.
   HWY_INLINE Int row(const Cell& cell, int axis, int offset) const
   {
-    return hn::Min(
-      hn::Max(cell.index[axis] + integer(offset), integer(0)), integer(Last[axis]));
+    return hn::Min(hn::Max(cell.index[axis] + integer(offset), integer(0)), last(axis));
   }
 
   HWY_INLINE Real edge(const Cell& cell, Int j, Int k) const
   {
-    Real a, b;
-    fetch_pair(cell.index[0], j, k, a, b);
-    return lerp(a, b, cell.fraction[0]);
+    const Pair pair = safe_pair(cell.index[0], j, k);
+    return lerp(pair.first, pair.second, cell.fraction[0]);
   }
 
-  /// 32 bits from the byte offset of voxel (i, j, k) on.
-  HWY_INLINE Int word(Int i, Int j, Int k) const
+  HWY_INLINE Int offset_of(const Int index[3]) const
   {
-    if (HWY_UNLIKELY(Far))
+    return index[0] * integer(static_cast<int>(View.stride[0])) +
+           index[1] * integer(static_cast<int>(View.stride[1])) +
+           index[2] * integer(static_cast<int>(View.stride[2]));
+  }
+
+  HWY_INLINE Pair safe_pair(Int i, Int j, Int k) const
+  {
+    if (HWY_UNLIKELY(View.far))
     {
-      return far_word(i, j, k);
+      return far_pair(i, j, k);
     }
-    Int offset = i * integer(static_cast<int>(Stride[0])) +
-      j * integer(static_cast<int>(Stride[1])) + k * integer(static_cast<int>(Stride[2]));
-    const auto* base = reinterpret_cast<const std::int32_t*>(Base);
-    if constexpr (sizeof(T) * Components >= 4)
+    const Int index[3] = { i, j, k };
+    return pair<true>(offset_of(index), 0);
+  }
+
+  HWY_INLINE Real single(Int i, Int j, Int k) const
+  {
+    if (HWY_UNLIKELY(View.far))
     {
-      return hn::GatherOffset(int_tag, base, offset);
+      return unpack<0>(far_word(i, j, k));
+    }
+    const Int index[3] = { i, j, k };
+    return unpack<0>(word<true>(offset_of(index), 0));
+  }
+
+  /// The voxel at a byte offset and its neighbour along x. Checked: the words may reach beyond the
+  /// end of the memory.
+  template <bool Checked>
+  HWY_INLINE Pair pair(Int offset, std::ptrdiff_t further) const
+  {
+    const Int bits = word<Checked>(offset, further);
+    if constexpr (SecondBit > 0)
+    {
+      return { unpack<0>(bits), unpack<SecondBit>(bits) };
     }
     else
     {
-      // The word of the last voxels would reach beyond the memory: read the last whole word there
-      // and shift its bits down.
-      const Int safe = hn::Min(offset, integer(static_cast<int>(LastWord)));
-      const Int bits = hn::ShiftLeft<3>(offset - safe);
-      return hn::GatherOffset(int_tag, base, safe) >> bits;
+      const auto next = further + static_cast<std::ptrdiff_t>(View.stride[0]);
+      return { unpack<0>(bits), unpack<0>(word<Checked>(offset, next)) };
     }
   }
 
-  /// The same for grids of 2 GiB and more, a lane at a time.
+  HWY_INLINE Pair far_pair(Int i, Int j, Int k) const
+  {
+    const Int bits = far_word(i, j, k);
+    if constexpr (SecondBit > 0)
+    {
+      return { unpack<0>(bits), unpack<SecondBit>(bits) };
+    }
+    else
+    {
+      return { unpack<0>(bits), unpack<0>(far_word(i + integer(1), j, k)) };
+    }
+  }
+
+  /// 32 bits from the byte offset on.
+  template <bool Checked>
+  HWY_INLINE Int word(Int offset, std::ptrdiff_t further) const
+  {
+    if constexpr (!Checked || sizeof(T) == 4)
+    {
+      return hn::GatherOffset(
+        int_tag, reinterpret_cast<const std::int32_t*>(View.base + further), offset);
+    }
+    else
+    {
+      // Beyond the last whole word: read that, and shift its bits down.
+      const Int at = offset + integer(static_cast<int>(further));
+      const Int safe = hn::Min(at, LastWord);
+      const Int bits = hn::ShiftLeft<3>(at - safe);
+      return hn::GatherOffset(int_tag, reinterpret_cast<const std::int32_t*>(View.base), safe) >>
+             bits;
+    }
+  }
+
+  /// The word of a voxel of a grid of 2 GiB and more, a lane at a time.
   HWY_NOINLINE Int far_word(Int i, Int j, Int k) const
   {
     HWY_ALIGN std::int32_t x[lane_count], y[lane_count], z[lane_count], result[lane_count];
@@ -208,16 +316,17 @@ private:
     hn::Store(k, int_tag, z);
     for (int lane = 0; lane < lane_count; ++lane)
     {
-      const std::size_t offset = x[lane] * Stride[0] + y[lane] * Stride[1] + z[lane] * Stride[2];
-      const std::size_t safe = offset < LastWord ? offset : LastWord;
+      const std::size_t offset =
+        x[lane] * View.stride[0] + y[lane] * View.stride[1] + z[lane] * View.stride[2];
+      const std::size_t safe = offset < View.last_word ? offset : View.last_word;
       std::uint32_t bits;
-      hwy::CopyBytes<4>(Base + safe, &bits);
+      hwy::CopyBytes<4>(View.base + safe, &bits);
       result[lane] = static_cast<std::int32_t>(bits >> (8 * (offset - safe)));
     }
     return hn::Load(int_tag, result);
   }
 
-  /// The component in the low bits of a word, sign and all.
+  /// The voxel that begins at a bit of a word, sign and all.
   template <int FirstBit>
   HWY_INLINE Real unpack(Int bits) const
   {
@@ -231,6 +340,12 @@ private:
       const Int top = hn::ShiftLeft<32 - width - FirstBit>(bits);
       return hn::ConvertTo(float_tag, hn::ShiftRight<32 - width>(top));
     }
+    else if constexpr (FirstBit + width == 32)
+    {
+      const auto unsigned_bits = hn::BitCast(hn::RebindToUnsigned<IntTag>(), bits);
+      return hn::ConvertTo(
+        float_tag, hn::BitCast(int_tag, hn::ShiftRight<FirstBit>(unsigned_bits)));
+    }
     else
     {
       const Int low = hn::And(hn::ShiftRight<FirstBit>(bits), integer((1 << width) - 1));
@@ -240,51 +355,22 @@ private:
 
   HWY_INLINE Real sanitize(Real value) const
   {
-    if (HWY_UNLIKELY(NonFinite))
+    if (HWY_UNLIKELY(View.non_finite))
     {
-      return hn::IfThenElse(hn::IsFinite(value), value, real(EmptyValue));
+      return hn::IfThenElse(hn::IsFinite(value), value, real(View.empty_value));
     }
     return value;
   }
 
-  HWY_INLINE Real fetch(Int i, Int j, Int k) const
-  {
-    return unpack<8 * sizeof(T) * (Components - 1)>(word(i, j, k));
-  }
-
-  /// Voxels i and i + 1 of row (j, k).
-  HWY_INLINE void fetch_pair(Int i, Int j, Int k, Real& a, Real& b) const
-  {
-    if constexpr (sizeof(T) * Components <= 2)
-    {
-      const Int bits = word(i, j, k);
-      a = unpack<0>(bits);
-      b = unpack<8 * sizeof(T)>(bits);
-    }
-    else
-    {
-      a = fetch(i, j, k);
-      b = fetch(i + integer(1), j, k);
-    }
-  }
-
-  HWY_INLINE Real component(Int i, Int j, Int k, int c) const
-  {
-    const Int bits = word(i, j, k);
-    const Int shifted = hn::ShiftRightSame(bits, 8 * c);
-    return hn::ConvertTo(float_tag, hn::And(shifted, integer(255)));
-  }
-
-  const std::uint8_t* Base;
-  std::size_t Stride[3];
-  std::size_t LastWord;
-  int Last[3];
-  int LastCell[3];
-  bool Far;
-  bool NonFinite;
-  float EmptyValue;
+  const FieldView& View;
+  Int LastWord;
 };
 
+template <class T, int SecondBit>
+HWY_INLINE FieldFunctions field_with_pairs()
+{
+  return { &Field<T, SecondBit>::values, &Field<T, SecondBit>::gradient };
+}
 }
 }
 HWY_AFTER_NAMESPACE();

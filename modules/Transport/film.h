@@ -35,7 +35,7 @@ struct Film
   /// height that is not positive.
   Film(int width, int height);
 
-  /// Makes it an empty picture of the same size again, in the memory that it has.
+  /// Makes the picture empty again, in the memory that it has.
   void clear();
 
   std::size_t size() const { return static_cast<std::size_t>(width) * height; }

@@ -1,5 +1,8 @@
 #include "Transport/grid.h"
 
+#include "Transport/sparse_voxels.h"
+
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -15,6 +18,7 @@ std::size_t size_of(VoxelType type)
       return 1;
     case VoxelType::UInt16:
     case VoxelType::Int16:
+    case VoxelType::Float16:
       return 2;
     case VoxelType::Float32:
       return 4;
@@ -22,8 +26,28 @@ std::size_t size_of(VoxelType type)
   return 0;
 }
 
+std::size_t Grid::voxel_count() const
+{
+  return sparse ? sparse->slot_count() * SparseVoxels::brick_voxels
+                : static_cast<std::size_t>(dims[0]) * dims[1] * dims[2];
+}
+
 void Grid::validate() const
 {
+  if (sparse)
+  {
+    if (voxels || components != 1 || sparse->type() != type ||
+      !std::equal(dims, dims + 3, sparse->dims().begin()))
+    {
+      throw std::invalid_argument("a sparse grid is of one component, and as its voxels say: take "
+                                  "it from SparseVoxels::grid()");
+    }
+    return;
+  }
+  if (type == VoxelType::Float16)
+  {
+    throw std::invalid_argument("a dense grid of half precision is not read: convert it to float");
+  }
   if (!voxels)
   {
     throw std::invalid_argument("the grid has no voxels");

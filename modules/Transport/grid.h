@@ -1,10 +1,12 @@
-// A dense grid of voxels, read in place: the caller owns the memory.
+// A grid of voxels, read in place: the caller owns the memory.
 #pragma once
 
 #include <cstddef>
 
 namespace brume
 {
+
+class SparseVoxels;
 
 /// The types of voxel that are read as they are. Others are converted to Float32 by the caller.
 enum class VoxelType
@@ -14,6 +16,7 @@ enum class VoxelType
   UInt16,
   Int16,
   Float32,
+  Float16, ///< half precision; sparse grids only
 };
 
 /// Bytes of one component of one voxel.
@@ -27,7 +30,7 @@ enum class VoxelColour
   RGB,   ///< the first three components, UInt8, 255 for 1 (four dependent components)
 };
 
-/// A view of dense voxels, x fastest, then y, then z, components interleaved.
+/// A view of voxels: dense ones, x fastest, then y, then z, components interleaved; or sparse ones.
 ///
 /// Index space: voxel (i, j, k) sits at the point (i, j, k). Between voxels the value is trilinear,
 /// or that of the nearest voxel. The grid fills the box from `lower(axis)` to `upper(axis)`: from
@@ -36,15 +39,20 @@ enum class VoxelColour
 struct Grid
 {
   const void* voxels = nullptr;
+  /// In place of `voxels`, which is null then: SparseVoxels::grid() fills in the rest.
+  const SparseVoxels* sparse = nullptr;
   VoxelType type = VoxelType::UInt8;
   /// Components of a voxel, 1 to 4.
   int components = 1;
   /// The component that carries the value: what is classified, and what the gradient is of.
   int component = 0;
   VoxelColour colour = VoxelColour::Value;
-  /// Voxels along x, y and z. At least 2 along x (repeat the voxel to pad a thinner grid) and 1
-  /// along y and z.
+  /// Voxels along x, y and z; of a sparse grid, those of the box around it. At least 2 along x
+  /// (repeat the voxel to pad a thinner grid) and 1 along y and z.
   int dims[3] = { 0, 0, 0 };
+  /// The first voxel that the grid reaches along each axis; 0 for dense grids. Coordinates still
+  /// count from voxel 0.
+  int first[3] = { 0, 0, 0 };
   /// Voxels are cells (VTK's cell data) rather than points.
   bool cell_centred = false;
   /// Voxels that are read but that the grid does not reach along x: 1 for a grid that was padded
@@ -53,20 +61,20 @@ struct Grid
   /// Trilinear, rather than the nearest voxel.
   bool linear = true;
 
-  double lower(int) const { return cell_centred ? -0.5 : 0.0; }
+  double lower(int axis) const { return first[axis] - (cell_centred ? 0.5 : 0.0); }
   double upper(int axis) const
   {
     const int last = dims[axis] - 1 - (axis == 0 ? padding_x : 0);
     return cell_centred ? last + 0.5 : last;
   }
-  std::size_t voxel_count() const
-  {
-    return static_cast<std::size_t>(dims[0]) * dims[1] * dims[2];
-  }
+  /// Voxels in memory: of a sparse grid those of its bricks, not those of the box.
+  std::size_t voxel_count() const;
+  /// What they take.
   std::size_t bytes() const { return voxel_count() * components * size_of(type); }
 
   /// Throws std::invalid_argument for what the integrators cannot read: no memory, a size out of
-  /// range, a component that is not there, colours in voxels that are not 4 × UInt8.
+  /// range, a component that is not there, colours in voxels that are not 4 × UInt8, a dense grid of
+  /// Float16.
   void validate() const;
 };
 

@@ -2,6 +2,9 @@
 
 #include "Transport/optics.h"
 
+#include <glm/common.hpp>
+#include <glm/vec4.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -53,12 +56,11 @@ double coarseness(const Classification& c, int intervals)
 
 }
 
-LookupTable make_lookup_table(const Classification& c, double step)
+namespace
 {
-  if (c.opacity.size() < 2 || (!c.rgb.empty() && c.rgb.size() != 3 * c.opacity.size()))
-  {
-    throw std::invalid_argument("a transfer function needs at least 2 nodes, and as many colours");
-  }
+
+void check(const Classification& c)
+{
   if (!(c.lower < c.upper))
   {
     throw std::invalid_argument("a transfer function's range must not be empty");
@@ -67,25 +69,22 @@ LookupTable make_lookup_table(const Classification& c, double step)
   {
     throw std::invalid_argument("the opacity unit distance must be positive");
   }
-  LookupTable table;
-  while (table.intervals < LookupTable::most_intervals && coarseness(c, table.intervals) > 0.01)
+  if (c.opacity.size() < 2 || (!c.rgb.empty() && c.rgb.size() != 3 * c.opacity.size()))
   {
-    table.intervals *= 2;
+    throw std::invalid_argument("a transfer function needs at least 2 nodes, and as many colours");
   }
-  const int count = table.intervals + 1;
-  table.lower = static_cast<float>(c.lower);
-  table.scale = static_cast<float>(table.intervals / (c.upper - c.lower));
-  table.nodes.resize(count);
-  std::vector<bool> visible(count);
-  bool found_empty = false;
-  for (int i = 0; i < count; ++i)
+}
+
+/// Adds the nodes of one classification to the table.
+void add_nodes(const Classification& c, LookupTable& table, std::vector<bool>& visible)
+{
+  for (int i = 0; i <= table.intervals; ++i)
   {
     const double value = c.lower + (c.upper - c.lower) * i / table.intervals;
     const TablePosition at = table_position(value, c.lower, c.upper, c.opacity.size());
-    LookupNode& node = table.nodes[i];
+    LookupNode node;
     const double opacity = interpolate(c.opacity.data(), at);
-    node.optical_depth =
-      static_cast<float>(extinction_from_opacity(opacity, c.unit_distance) * step);
+    node.extinction = static_cast<float>(extinction_from_opacity(opacity, c.unit_distance));
     float* colour = &node.red;
     for (int channel = 0; channel < 3; ++channel)
     {
@@ -93,38 +92,185 @@ LookupTable make_lookup_table(const Classification& c, double step)
         c.rgb.empty() ? 0.0f : static_cast<float>(interpolate(c.rgb.data() + channel, at, 3));
       table.brightest = std::max(table.brightest, colour[channel]);
     }
-    visible[i] = node.optical_depth > 0.0f;
-    if (!found_empty && node.optical_depth == 0.0f)
+    visible[i] = visible[i] || node.extinction > 0.0f;
+    table.nodes.push_back(node);
+  }
+}
+
+/// Extinction, and extinction times colour, at a node.
+glm::dvec4 associated(const LookupNode& node)
+{
+  return glm::dvec4(node.red, node.green, node.blue, 1.0) * double(node.extinction);
+}
+
+void add_integrals(LookupTable& table)
+{
+  table.integrals.resize(table.intervals + 1);
+  glm::dvec4 sum(0.0);
+  for (int i = 0; i <= table.intervals; ++i)
+  {
+    if (i > 0)
     {
-      table.empty_value = static_cast<float>(value);
-      found_empty = true;
+      sum += 0.5 * (associated(table.nodes[i - 1]) + associated(table.nodes[i]));
     }
+    table.integrals[i] = { static_cast<float>(sum.r),
+      static_cast<float>(sum.g),
+      static_cast<float>(sum.b),
+      static_cast<float>(sum.a) };
+  }
+}
+
+/// Cuts the table into stretches: each as long as all its nodes lie within a three-hundredth of the
+/// straight line between its ends, for extinction and for extinction · colour.
+void add_stretches(LookupTable& table)
+{
+  table.stretch.resize(table.intervals);
+  const auto straight = [&](int first, int last)
+  {
+    const glm::dvec4 a = associated(table.nodes[first]);
+    const glm::dvec4 b = associated(table.nodes[last]);
+    const int count = last - first;
+    const int stride = std::max(1, count / 16); // a polyline of few corners: this sees them
+    for (int i = first + stride; i < last; i += stride)
+    {
+      const glm::dvec4 line = a + (b - a) * (double(i - first) / count);
+      const glm::dvec4 off = glm::abs(associated(table.nodes[i]) - line);
+      const double allowed = line.a / 300.0;
+      if (off.r > allowed || off.g > allowed || off.b > allowed || off.a > allowed)
+      {
+        return false;
+      }
+    }
+    return true;
+  };
+  int number = 0;
+  int first = 0;
+  while (first < table.intervals)
+  {
+    // The longest by doubling, then by halving.
+    int reach = 1;
+    int step = 1;
+    while (first + reach + step <= table.intervals && straight(first, first + reach + step))
+    {
+      reach += step;
+      step *= 2;
+    }
+    for (; step >= 1; step /= 2)
+    {
+      if (first + reach + step <= table.intervals && straight(first, first + reach + step))
+      {
+        reach += step;
+      }
+    }
+    for (int i = 0; i < reach; ++i)
+    {
+      table.stretch[first + i] = number;
+    }
+    ++number;
+    first += reach;
+  }
+}
+
+void add_gradient_factor(const Classification& c, LookupTable& table)
+{
+  if (c.gradient_opacity.size() < 2 || !(c.gradient_upper > 0.0))
+  {
+    throw std::invalid_argument("a gradient opacity needs 2 nodes and a positive range");
+  }
+  table.gradient_factor.resize(LookupTable::gradient_intervals + 1);
+  for (int i = 0; i <= LookupTable::gradient_intervals; ++i)
+  {
+    const double magnitude = c.gradient_upper * i / LookupTable::gradient_intervals;
+    const double factor = interpolate(c.gradient_opacity.data(),
+      table_position(magnitude, 0.0, c.gradient_upper, c.gradient_opacity.size()));
+    table.gradient_factor[i] = static_cast<float>(std::clamp(factor, 0.0, 1.0));
+  }
+  table.gradient_table_scale =
+    static_cast<float>(LookupTable::gradient_intervals / c.gradient_upper);
+}
+
+/// A function of value and gradient: seen where any gradient makes it seen.
+LookupTable make_value_gradient_table(const Classification& c)
+{
+  if (!(c.lower < c.upper) || !(c.unit_distance > 0.0) || !(c.gradient_upper > 0.0))
+  {
+    throw std::invalid_argument(
+      "a transfer function of value and gradient needs ranges that are not "
+      "empty and a positive unit distance");
+  }
+  LookupTable table;
+  table.unit_distance = static_cast<float>(c.unit_distance);
+  table.columns = c.value_gradient_width;
+  table.rows = static_cast<int>(c.value_gradient.size() / 4 / c.value_gradient_width);
+  table.value_gradient.assign(c.value_gradient.begin(), c.value_gradient.end());
+  table.intervals = table.columns - 1;
+  table.lower = static_cast<float>(c.lower);
+  table.scale = static_cast<float>(table.intervals / (c.upper - c.lower));
+  table.gradient_table_scale = static_cast<float>((table.rows - 1) / c.gradient_upper);
+  std::vector<bool> visible(table.columns);
+  for (std::size_t i = 0; i < table.value_gradient.size(); i += 4)
+  {
+    const float* node = table.value_gradient.data() + i;
+    table.brightest = std::max({ table.brightest, node[0], node[1], node[2] });
+    const std::size_t column = i / 4 % table.columns;
+    visible[column] = visible[column] || node[3] > 0.0f;
   }
   table.visible = VisibleValues(c.lower, c.upper, visible);
-  if (!found_empty)
+  const auto empty = std::find(visible.begin(), visible.end(), false);
+  const double column = empty == visible.end() ? 0.0 : double(empty - visible.begin());
+  table.empty_value = static_cast<float>(c.lower + column * (c.upper - c.lower) / table.intervals);
+  return table;
+}
+
+}
+
+LookupTable make_lookup_table(const Classification& c, const std::vector<Classification>& labels)
+{
+  if (!c.value_gradient.empty())
   {
-    table.empty_value = table.lower;
+    return make_value_gradient_table(c);
   }
+  check(c);
+  LookupTable table;
+  for (const Classification& label : labels)
+  {
+    check(label);
+    if (label.lower != c.lower || label.upper != c.upper)
+    {
+      throw std::invalid_argument("the labels' transfer functions have ranges of their own");
+    }
+  }
+  const auto fine_enough = [&](const Classification& each)
+  { return coarseness(each, table.intervals) <= 0.01; };
+  while (table.intervals < LookupTable::most_intervals &&
+         !(fine_enough(c) && std::all_of(labels.begin(), labels.end(), fine_enough)))
+  {
+    table.intervals *= 2;
+  }
+  table.lower = static_cast<float>(c.lower);
+  table.scale = static_cast<float>(table.intervals / (c.upper - c.lower));
+  std::vector<bool> visible(table.intervals + 1);
+  add_nodes(c, table, visible);
+  for (const Classification& label : labels)
+  {
+    add_nodes(label, table, visible);
+  }
+  table.visible = VisibleValues(c.lower, c.upper, visible);
+  const auto empty = std::find(visible.begin(), visible.end(), false);
+  table.empty_value =
+    empty == visible.end()
+      ? table.lower
+      : static_cast<float>(
+          c.lower + (c.upper - c.lower) * double(empty - visible.begin()) / table.intervals);
   if (c.rgb.empty())
   {
     table.brightest = 1.0f;
   }
+  add_integrals(table);
+  add_stretches(table);
   if (!c.gradient_opacity.empty())
   {
-    if (c.gradient_opacity.size() < 2 || !(c.gradient_upper > 0.0))
-    {
-      throw std::invalid_argument("a gradient opacity needs 2 nodes and a positive range");
-    }
-    table.gradient_factor.resize(LookupTable::gradient_intervals + 1);
-    for (int i = 0; i <= LookupTable::gradient_intervals; ++i)
-    {
-      const double magnitude = c.gradient_upper * i / LookupTable::gradient_intervals;
-      const double factor = interpolate(c.gradient_opacity.data(),
-        table_position(magnitude, 0.0, c.gradient_upper, c.gradient_opacity.size()));
-      table.gradient_factor[i] = static_cast<float>(std::clamp(factor, 0.0, 1.0));
-    }
-    table.gradient_table_scale =
-      static_cast<float>(LookupTable::gradient_intervals / c.gradient_upper);
+    add_gradient_factor(c, table);
   }
   return table;
 }

@@ -1,9 +1,11 @@
-// Transfer functions as the kernels read them: one table of colour and optical depth.
+// Transfer functions as the kernels read them: tables of colour and extinction, and their
+// integrals.
 #pragma once
 
 #include "Transport/scene.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace brume
@@ -27,17 +29,16 @@ private:
   std::vector<int> Before; ///< how many of the nodes before each can be seen
 };
 
-/// A node: source colour and the optical depth of one whole step of the march.
+/// A node: source colour, and extinction per unit of the data's length.
 struct LookupNode
 {
   float red;
   float green;
   float blue;
-  float optical_depth;
+  float extinction;
 };
 
-/// The classification sampled at even distances, for one step length. Between nodes the kernels
-/// interpolate.
+/// The classification sampled at even distances. Between nodes the kernels interpolate.
 struct LookupTable
 {
   /// Intervals between the nodes, a power of two. The table is one node longer, so that the last
@@ -47,6 +48,7 @@ struct LookupTable
   static constexpr int most_intervals = 65536;
   int intervals = least_intervals;
 
+  /// The nodes of Volume::classification, then those of each of label_classifications.
   std::vector<LookupNode> nodes;
   /// Position in the table = (value − lower) * scale, clamped to [0, intervals].
   float lower = 0.0f;
@@ -65,12 +67,31 @@ struct LookupTable
   /// Whether any value in [lowest, highest] has an optical depth.
   bool can_show(float lowest, float highest) const { return this->visible.any(lowest, highest); }
   VisibleValues visible;
+
+  /// For values that run evenly from a to b along a step: the first classification's extinction,
+  /// and extinction · colour, summed over the table from its lower end to each node, in intervals.
+  /// Their differences divided by b − a are the means over the step (Engel, Kraus, Ertl,
+  /// High-quality pre-integrated volume rendering, 2001).
+  std::vector<LookupNode> integrals;
+  /// The number of the stretch that each interval belongs to, within which extinction and
+  /// extinction · colour are as good as linear: between two values of one stretch, the table's
+  /// entry half-way is the mean, and no integral is needed.
+  std::vector<std::int32_t> stretch;
+
+  /// Classification::value_gradient in single precision: R, G, B and opacity, `rows` rows of
+  /// `columns` nodes. `position` in a row as above with `columns` − 1 intervals; the row is
+  /// gradient · gradient_table_scale. Empty: none.
+  std::vector<float> value_gradient;
+  float unit_distance = 1.0f; ///< the length that its opacities speak of
+  int columns = 0;
+  int rows = 0;
 };
 
-/// Builds the table for steps of the length `step`, in the data's units. Throws
-/// std::invalid_argument for tables of fewer than 2 nodes, lower ≥ upper, or a unit distance that
-/// is not positive.
-LookupTable make_lookup_table(const Classification& classification, double step);
+/// Builds the table. `labels` are further classifications over the same range of values. Throws
+/// std::invalid_argument for tables of fewer than 2 nodes, lower ≥ upper, a unit distance that is
+/// not positive, or labels of another range.
+LookupTable make_lookup_table(const Classification& classification,
+  const std::vector<Classification>& labels = {});
 
 /// Position of `value` among `count` nodes over [lower, upper]: the interval and the fraction in it.
 struct TablePosition

@@ -32,37 +32,37 @@ double seconds_since(std::chrono::steady_clock::time_point start)
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-MarchCount march(const MarchTask& task)
+using Integrator = MarchCount (*)(const MarchTask&);
+
+/// Whether the volume is read by one grid of values alone.
+bool is_plain(const Volume& volume)
 {
-  if (task.grid->colour == VoxelColour::RGB)
+  return !volume.mask.labels && volume.grid.colour == VoxelColour::Value &&
+         volume.classification.value_gradient.empty();
+}
+
+Integrator find_integrator(const Scene& scene)
+{
+  if (scene.blend_mode != BlendMode::Composite)
   {
-    return march_rgba8(task);
+    throw std::invalid_argument("this blend mode cannot be marched");
   }
-  switch (task.grid->type)
+  if (scene.volumes.size() > 1 || !is_plain(scene.volumes[0]))
   {
-    case VoxelType::UInt8:
-      return march_uint8(task);
-    case VoxelType::Int8:
-      return march_int8(task);
-    case VoxelType::UInt16:
-      return march_uint16(task);
-    case VoxelType::Int16:
-      return march_int16(task);
-    case VoxelType::Float32:
-      return march_float32(task);
+    return march_mixture;
   }
-  return {};
+  return scene.volumes[0].meaning == ValueMeaning::Density ? march_density : march_composite;
 }
 
 /// The longest way through the grid, in the data's units.
-double diagonal(const Scene& scene)
+double diagonal(const Volume& volume)
 {
   glm::dvec3 extent;
   for (int axis = 0; axis < 3; ++axis)
   {
-    extent[axis] = scene.volumes[0].grid.upper(axis) - scene.volumes[0].grid.lower(axis);
+    extent[axis] = volume.grid.upper(axis) - volume.grid.lower(axis);
   }
-  const glm::dmat3 m(scene.volumes[0].data_from_index);
+  const glm::dmat3 m(volume.data_from_index);
   double longest = 0.0;
   for (int corner = 0; corner < 4; ++corner)
   {
@@ -76,55 +76,150 @@ double diagonal(const Scene& scene)
 
 }
 
-struct Marcher::Cache
+bool follows_rule(const Scene& scene, StepRule rule)
 {
-  std::uint64_t data_revision = 0;
-  std::shared_ptr<const BrickRanges> ranges;
-
-  bool have_visible = false;
-  std::uint64_t medium_revision = 0;
-  VisibleBricks visible;
-
-  bool have_table = false;
-  double table_step = 0.0;
-  LookupTable table;
-
-  void update_ranges(const Scene& scene, int threads)
+  const Volume& volume = scene.volumes[0];
+  const bool plain =
+    scene.volumes.size() == 1 && is_plain(volume) && scene.blend_mode == BlendMode::Composite;
+  switch (rule)
   {
-    if (!this->ranges || this->data_revision != scene.volumes[0].data_revision || scene.volumes[0].data_revision == 0)
+    case StepRule::Midpoint:
+      return true;
+    case StepRule::Integrated:
+      return plain && volume.meaning == ValueMeaning::Classified;
+    case StepRule::Cells:
+      return plain && volume.meaning == ValueMeaning::Density;
+  }
+  return false;
+}
+
+/// What is kept of one volume.
+class VolumeCache
+{
+public:
+  void update(const Volume& volume, int threads)
+  {
+    if (!this->Ranges || this->DataRevision != volume.data_revision || volume.data_revision == 0)
     {
-      this->ranges = scene.volumes[0].ranges
-        ? scene.volumes[0].ranges
-        : std::make_shared<BrickRanges>(measure_bricks(scene.volumes[0].grid, threads));
-      this->data_revision = scene.volumes[0].data_revision;
-      this->have_visible = false;
+      this->Ranges = volume.ranges
+                       ? volume.ranges
+                       : std::make_shared<BrickRanges>(measure_bricks(volume.grid, threads));
+      this->DataRevision = volume.data_revision;
+      this->HaveMedium = false;
+    }
+    if (this->HaveMedium && this->MediumRevision == volume.medium_revision &&
+        volume.medium_revision != 0)
+    {
+      return;
+    }
+    this->HaveMedium = false; // until all is done: memory may run out on the way
+    const bool classified = volume.meaning == ValueMeaning::Classified;
+    if (classified)
+    {
+      this->Table = make_lookup_table(volume.classification, volume.label_classifications);
+    }
+    const bool any = volume.weight > 0.0;
+    this->Visible = find_visible_bricks(
+      *this->Ranges,
+      [&](float lower, float upper)
+      {
+        return any && (classified ? this->Table.can_show(lower, upper)
+                                  : upper > 0.0f && volume.density.extinction > 0.0);
+      },
+      this->empty_value(volume));
+    this->MediumRevision = volume.medium_revision;
+    this->HaveMedium = true;
+  }
+
+  /// What kernels need of the volume, which must be the one of the last update.
+  VolumeTask task(const Scene& scene, const Volume& volume) const
+  {
+    VolumeTask task;
+    const bool non_finite = this->Ranges->non_finite_voxels > 0;
+    task.meaning = volume.meaning;
+    task.field =
+      view_field(volume.grid, volume.grid.component, non_finite, this->empty_value(volume));
+    task.bricks = this->Visible.visible < this->Ranges->size() ? &this->Visible : nullptr;
+    task.weight = static_cast<float>(volume.weight);
+    if (volume.meaning == ValueMeaning::Density)
+    {
+      task.extinction = static_cast<float>(volume.density.extinction * volume.weight);
+      return task;
+    }
+    task.table = &this->Table;
+    task.shade = prepare_shading(scene, volume);
+    task.needs_gradient = volume.shading.enabled || !this->Table.gradient_factor.empty();
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      task.gradient_scale[axis] = static_cast<float>(
+        this->Table.gradient_table_scale / volume.classification.gradient_scale[axis]);
+    }
+    task.colour = volume.grid.colour;
+    for (int c = 0; c < 3; ++c)
+    {
+      const int component = task.colour == VoxelColour::RGB ? c : 0;
+      task.colours[c] = view_field(volume.grid, component, non_finite, 0.0f);
+    }
+    if (volume.mask.labels)
+    {
+      add_mask(volume, task);
+    }
+    return task;
+  }
+
+  const BrickRanges& ranges() const { return *this->Ranges; }
+  const VisibleBricks& visible() const { return this->Visible; }
+  /// The brightest light that the volume's matter can send.
+  double brightest(const VolumeTask& task) const
+  {
+    // Highlights do not take the matter's colour: a dim one has them all the same.
+    return task.table
+             ? std::max(1.0, double(this->Table.brightest)) * std::max(1.0, task.shade.brightest)
+             : 1.0;
+  }
+
+private:
+  float empty_value(const Volume& volume) const
+  {
+    return volume.meaning == ValueMeaning::Classified ? this->Table.empty_value : 0.0f;
+  }
+
+  void add_mask(const Volume& volume, VolumeTask& task) const
+  {
+    Grid labels = volume.grid;
+    labels.voxels = volume.mask.labels;
+    labels.type = VoxelType::UInt8;
+    labels.components = 1;
+    labels.component = 0;
+    labels.linear = false;
+    task.masked = true;
+    task.labels = view_field(labels, 0, false, 0.0f);
+    for (int label = 0; label < 256; ++label)
+    {
+      const int n = volume.mask.classification_of_label[label];
+      task.first_node[label] = n == Mask::hidden ? -1 : n * (this->Table.intervals + 1);
     }
   }
 
-  void update(const Scene& scene, double step, int threads)
+  std::uint64_t DataRevision = 0;
+  std::shared_ptr<const BrickRanges> Ranges;
+  bool HaveMedium = false;
+  std::uint64_t MediumRevision = 0;
+  LookupTable Table;
+  VisibleBricks Visible;
+};
+
+struct Marcher::Cache
+{
+  std::vector<VolumeCache> volumes;
+
+  void update(const Scene& scene, int threads)
   {
-    this->update_ranges(scene, threads);
-    const bool classified = scene.volumes[0].meaning == ValueMeaning::Classified;
-    const bool new_medium =
-      this->medium_revision != scene.volumes[0].medium_revision || scene.volumes[0].medium_revision == 0;
-    if (classified && (!this->have_table || new_medium || this->table_step != step))
+    this->volumes.resize(scene.volumes.size());
+    for (std::size_t k = 0; k < scene.volumes.size(); ++k)
     {
-      this->table = make_lookup_table(scene.volumes[0].classification, step);
-      this->table_step = step;
-      this->have_table = true;
+      this->volumes[k].update(scene.volumes[k], threads);
     }
-    if (!this->have_visible || new_medium)
-    {
-      this->visible = find_visible_bricks(*this->ranges,
-        [&](float lower, float upper)
-        {
-          return classified ? this->table.can_show(lower, upper)
-                            : upper > 0.0f && scene.volumes[0].density.extinction > 0.0;
-        },
-        classified ? this->table.empty_value : 0.0f);
-      this->have_visible = true;
-    }
-    this->medium_revision = scene.volumes[0].medium_revision;
   }
 };
 
@@ -162,45 +257,40 @@ MarchStatistics Marcher::render(
   const int threads =
     settings.threads > 0 ? settings.threads : tbb::info::default_concurrency();
   tbb::task_arena arena(threads);
-  const double step = std::max(settings.step, diagonal(scene) / double(1 << 16));
+  double step = settings.step;
+  for (const Volume& volume : scene.volumes)
+  {
+    step = std::max(step, diagonal(volume) / double(1 << 16));
+  }
 
   const auto start_prepare = std::chrono::steady_clock::now();
-  this->Kept->update(scene, step, threads);
-  const Cache& kept = *this->Kept;
-  const ShadeModel shade = prepare_shading(scene, scene.volumes[0]);
+  const Integrator integrator = find_integrator(scene);
+  this->Kept->update(scene, threads);
   const RayMaker rays(scene, film.width, film.height);
-
+  std::vector<VolumeTask> volumes;
+  double brightest = 1.0;
+  std::size_t visible_bricks = 0;
+  for (std::size_t k = 0; k < scene.volumes.size(); ++k)
+  {
+    const VolumeCache& kept = this->Kept->volumes[k];
+    volumes.push_back(kept.task(scene, scene.volumes[k]));
+    brightest = std::max(brightest, kept.brightest(volumes.back()));
+    statistics.non_finite_voxels += kept.ranges().non_finite_voxels;
+    statistics.bricks += kept.ranges().size();
+    visible_bricks += kept.visible().visible;
+  }
   MarchTask common;
-  common.grid = &scene.volumes[0].grid;
-  common.meaning = scene.volumes[0].meaning;
+  common.volumes = &volumes;
   common.rays = &rays;
-  common.non_finite = kept.ranges->non_finite_voxels > 0;
+  common.rule = follows_rule(scene, settings.rule) ? settings.rule : StepRule::Midpoint;
   common.step = step;
+  common.jitter = settings.jitter;
   common.step_error = static_cast<float>(settings.step_error);
   common.film = &film;
-  common.bricks = kept.visible.visible < kept.ranges->size() ? &kept.visible : nullptr;
-  if (scene.volumes[0].meaning == ValueMeaning::Classified)
-  {
-    common.table = &kept.table;
-    common.shade = &shade;
-    // What is behind can change a pixel by no more than the transmittance left times the brightest
-    // of the matter there and of a white background.
-    // Highlights do not take the matter's colour: a dim one has them all the same.
-    const double brightest =
-      std::max(1.0, double(kept.table.brightest)) * std::max(1.0, shade.brightest);
-    common.brightest = static_cast<float>(brightest);
-    common.leave_below = static_cast<float>(settings.leave_error / brightest);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      common.gradient_scale[axis] = static_cast<float>(
-        kept.table.gradient_table_scale / scene.volumes[0].classification.gradient_scale[axis]);
-    }
-  }
-  else
-  {
-    common.depth_per_value = scene.volumes[0].density.extinction * step;
-    common.half_depth = static_cast<float>(std::log(2.0) / common.depth_per_value);
-  }
+  // What is behind can change a pixel by no more than the transmittance left times the brightest of
+  // the matter there and of a white background.
+  common.brightest = static_cast<float>(brightest);
+  common.leave_below = static_cast<float>(settings.leave_error / brightest);
   statistics.seconds_prepare = seconds_since(start_prepare);
 
   const auto start = std::chrono::steady_clock::now();
@@ -212,7 +302,7 @@ MarchStatistics Marcher::render(
   std::atomic<int> done{ 0 };
   std::atomic<bool> aborted{ false };
   const std::thread::id caller = std::this_thread::get_id();
-  if (kept.visible.visible > 0)
+  if (visible_bricks > 0)
   {
     arena.execute(
       [&]
@@ -232,7 +322,7 @@ MarchStatistics Marcher::render(
               task.y0 = tile / tiles_x * tile_edge;
               task.x1 = std::min(task.x0 + tile_edge, film.width);
               task.y1 = std::min(task.y0 + tile_edge, film.height);
-              const MarchCount count = march(task);
+              const MarchCount count = integrator(task);
               samples += count.samples;
               ray_count += count.rays;
               const int finished = ++done;
@@ -258,9 +348,8 @@ MarchStatistics Marcher::render(
   statistics.samples = samples;
   statistics.rays = ray_count;
   statistics.threads = threads;
-  statistics.non_finite_voxels = kept.ranges->non_finite_voxels;
-  statistics.bricks = kept.ranges->size();
-  statistics.visible_bricks = kept.visible.visible;
+  statistics.rule = common.rule;
+  statistics.visible_bricks = visible_bricks;
   statistics.completed = !aborted;
   const std::string targets = simd_targets();
   statistics.simd = targets.substr(0, targets.find(' '));

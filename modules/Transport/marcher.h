@@ -1,4 +1,4 @@
-// The ray marcher: fixed steps, packets of rays, tiles shared by threads.
+// The ray marcher: packets of rays, tiles shared by threads, caches.
 #pragma once
 
 #include "Transport/film.h"
@@ -13,9 +13,24 @@
 namespace brume
 {
 
+/// How the light of a step is found from the values on it.
+enum class StepRule
+{
+  /// The value in the middle of the step stands for all of it.
+  Midpoint,
+  /// The values at both ends: between them they are taken to run evenly, and the transfer functions
+  /// are integrated over that run. Steep functions then need no short steps. For one classified
+  /// volume without a mask whose colour comes from its value; others are marched by Midpoint.
+  Integrated,
+  /// Two Gauss–Legendre points in each cell that the ray crosses: the optical depth of a trilinear
+  /// density is exact, whatever the step. For one density; others are marched by Midpoint.
+  Cells,
+};
+
 /// How a picture is to be made.
 struct MarchSettings
 {
+  StepRule rule = StepRule::Midpoint;
   /// Length of a step, in the data's units; > 0. The last step of a ray is cut at the grid's end.
   /// Rays of more than 2¹⁶ steps get longer ones: beyond, rounding would cost more than they gain.
   double step = 1.0;
@@ -24,6 +39,9 @@ struct MarchSettings
   double leave_error = 0.001;
   /// What the caller expects the step to cost in accuracy; added to Film::error. ≥ 0.
   double step_error = 0.0;
+  /// Rays begin within their first step at a place that differs from pixel to pixel: long steps
+  /// then show as grain rather than as bands. The same in every picture.
+  bool jitter = false;
   /// Worker threads; 0 for as many as the machine has processors.
   int threads = 0;
 };
@@ -34,6 +52,7 @@ struct MarchStatistics
   double seconds_prepare = 0.0; ///< scanning voxels, building tables; 0 when all was kept
   double seconds = 0.0;         ///< the render alone
   double step = 0.0;            ///< the step that was taken, in the data's units
+  StepRule rule = StepRule::Midpoint; ///< the rule that was followed
   std::uint64_t samples = 0;    ///< places at which the grid was read
   std::uint64_t rays = 0;       ///< rays that met the grid
   int threads = 0;
@@ -49,7 +68,8 @@ struct MarchStatistics
 using Progress = std::function<bool(double)>;
 
 /// Draws scenes, and keeps between pictures what does not change: the bricks as long as
-/// Scene::data_revision stays, the tables as long as medium_revision and the step stay.
+/// Scene::data_revision stays, the tables and
+/// the visible bricks as long as medium_revision stays, too.
 /// Not to be used from two threads at once; two marchers may be.
 class Marcher
 {
@@ -69,6 +89,9 @@ private:
   struct Cache;
   std::unique_ptr<Cache> Kept;
 };
+
+/// Whether a scene can be marched by a rule; where it cannot, Marcher::render takes Midpoint.
+bool follows_rule(const Scene& scene, StepRule rule);
 
 /// Names of the SIMD targets that this machine can run, best first.
 std::string simd_targets();

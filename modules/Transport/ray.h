@@ -1,21 +1,19 @@
-// From pixels to stretches of rays inside a grid, in double precision.
+// From pixels to stretches of rays inside volumes, in double precision.
 #pragma once
 
 #include "Transport/scene.h"
 
-#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include <cstdint>
+#include <vector>
 
 namespace brume
 {
 
-/// The part of a pixel's ray that lies inside the grid.
+/// The part of a pixel's ray that lies inside a grid.
 struct RaySegment
 {
   glm::dvec3 begin{ 0.0 };   ///< index space
@@ -25,99 +23,85 @@ struct RaySegment
   double world_scale = 1.0;  ///< world units in one of the data's, along the ray
 };
 
+/// A stretch of a ray along which the same volumes are met, as fractions of the way from the near
+/// plane (0) to the far plane or the surface that ends the ray (1).
+struct RayStretch
+{
+  double begin = 0.0;
+  double end = 0.0;
+  std::uint32_t volumes =
+    0; ///< bit k: inside Scene::volumes[k], what is cropped and clipped off it
+};
+
+/// The way of a pixel's ray in the index space of one volume.
+struct RayWay
+{
+  glm::dvec3 begin{ 0.0 };
+  glm::dvec3 way{ 0.0 };    ///< from the near plane to the end
+  double length = 0.0;      ///< of the way, in the data's units
+  double world_scale = 1.0; ///< world units in one of the data's, along the ray
+
+  RaySegment part(double from, double to) const
+  {
+    return {
+      begin + way * from, begin + way * to, length * (to - from), length * from, world_scale
+    };
+  }
+};
+
 /// Makes the rays of one scene and one picture size.
 class RayMaker
 {
 public:
-  RayMaker(const Scene& scene, int width, int height)
-    : Width(width)
-    , Height(height)
-    , DataFromIndex(scene.volumes[0].data_from_index)
-    , WorldFromIndex(scene.volumes[0].world_from_data * scene.volumes[0].data_from_index)
-  {
-    // One matrix from index space to the clip cube: far origins cancel here, in double precision,
-    // rather than in every ray.
-    const glm::dmat4 clip_from_index =
-      scene.camera.clip_from_world * scene.volumes[0].world_from_data * scene.volumes[0].data_from_index;
-    this->IndexFromClip = glm::inverse(clip_from_index);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      this->Lower[axis] = scene.volumes[0].grid.lower(axis);
-      this->Upper[axis] = scene.volumes[0].grid.upper(axis);
-    }
-    this->SurfaceDepth = scene.surface_depth.empty() ? nullptr : scene.surface_depth.data();
-  }
+  /// Of no more than 32 volumes: throws std::invalid_argument.
+  RayMaker(const Scene& scene, int width, int height);
 
-  /// The stretch of the ray through the centre of pixel (x, y), y from the bottom.
-  RaySegment segment(int x, int y) const
+  /// The way of the ray through the centre of pixel (x, y), y from the bottom, in a volume's index
+  /// space.
+  RayWay way(int x, int y, std::size_t volume = 0) const;
+
+  /// The stretches of the ray that lie in volumes, front to back; none for a miss. `stretches` is
+  /// emptied first.
+  void stretches(int x, int y, std::vector<RayStretch>& stretches) const;
+
+  /// The ray's part in the box of the first volume, whatever is cropped and clipped off it.
+  RaySegment segment(int x, int y) const;
+
+  /// Whether a ray has at most one stretch, which segment() gives.
+  bool simple() const { return this->Simple; }
+
+  /// What the rays of one volume are made from: for kernels that make many at once, as segment()
+  /// does.
+  struct Frame
   {
-    const double ndc_x = (2.0 * x + 1.0) / this->Width - 1.0;
-    const double ndc_y = (2.0 * y + 1.0) / this->Height - 1.0;
-    double ndc_far = 1.0;
-    if (this->SurfaceDepth)
-    {
-      ndc_far = std::min(
-        ndc_far, double(this->SurfaceDepth[static_cast<std::size_t>(y) * this->Width + x]));
-    }
-    const glm::dvec4 middle = this->IndexFromClip[0] * ndc_x + this->IndexFromClip[1] * ndc_y +
-      this->IndexFromClip[3];
-    const glm::dvec4 h_near = middle - this->IndexFromClip[2];
-    const glm::dvec4 h_far = middle + this->IndexFromClip[2] * ndc_far;
-    const glm::dvec3 from = glm::dvec3(h_near) / h_near.w;
-    const glm::dvec3 to = glm::dvec3(h_far) / h_far.w;
-    return this->clip(from, to);
-  }
+    const Volume* volume = nullptr;
+    glm::dmat3 data_from_index;
+    glm::dmat3 world_from_index;
+    glm::dmat4 index_from_clip;
+    double lower[3];
+    double upper[3];
+    std::vector<glm::dvec4> planes; ///< clipping planes in index space
+  };
+  const Frame& frame(std::size_t volume) const { return this->Frames[volume]; }
+  int width() const { return this->Width; }
+  int height() const { return this->Height; }
+  /// Device depth of the nearest surface of each pixel; null for none.
+  const float* surface_depth() const { return this->SurfaceDepth; }
 
 private:
-  /// Cuts the stretch to the grid's box by slabs. A ray in or along a face counts as inside; no
-  /// 0/0: an axis along which the ray does not move only asks whether it is within.
-  RaySegment clip(const glm::dvec3& from, const glm::dvec3& to) const
-  {
-    RaySegment result;
-    const glm::dvec3 d = to - from;
-    double s0 = 0.0;
-    double s1 = 1.0;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const double to_lower = this->Lower[axis] - from[axis];
-      const double to_upper = this->Upper[axis] - from[axis];
-      if (d[axis] == 0.0)
-      {
-        if (to_lower > 0.0 || to_upper < 0.0)
-        {
-          return result;
-        }
-        continue;
-      }
-      const double a = to_lower / d[axis];
-      const double b = to_upper / d[axis];
-      s0 = std::max(s0, std::min(a, b));
-      s1 = std::min(s1, std::max(a, b));
-    }
-    if (!(s0 < s1))
-    {
-      return result;
-    }
-    result.begin = from + d * s0;
-    result.end = from + d * s1;
-    const double whole = glm::length(this->DataFromIndex * d);
-    result.length = whole * (s1 - s0);
-    result.start_offset = whole * s0;
-    result.world_scale = glm::length(this->WorldFromIndex * d) / whole;
-    if (!std::isfinite(result.length))
-    {
-      return RaySegment();
-    }
-    return result;
-  }
+  /// Cuts [begin, end] to the box. Returns false for a miss.
+  static bool clip_to_box(const Frame& frame, const RayWay& way, double& begin, double& end);
+  static bool clip_to_planes(const Frame& frame, const RayWay& way, double& begin, double& end);
+  /// Adds the parts of [begin, end] whose cropping region is drawn.
+  static void add_regions(const Frame& frame,
+    const RayWay& way,
+    RayStretch whole,
+    std::vector<RayStretch>& parts);
 
   int Width;
   int Height;
-  glm::dmat3 DataFromIndex;
-  glm::dmat3 WorldFromIndex;
-  glm::dmat4 IndexFromClip{ 1.0 };
-  double Lower[3];
-  double Upper[3];
+  bool Simple;
+  std::vector<Frame> Frames;
   const float* SurfaceDepth = nullptr;
 };
 

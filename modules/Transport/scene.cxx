@@ -1,5 +1,7 @@
 #include "Transport/scene.h"
 
+#include <glm/geometric.hpp>
+
 #include <cmath>
 #include <stdexcept>
 
@@ -25,6 +27,10 @@ void validate(const Classification& c, const Grid& grid)
         c.value_gradient.size() % (4 * static_cast<std::size_t>(c.value_gradient_width)) == 0 &&
         c.value_gradient.size() >= 8 * static_cast<std::size_t>(c.value_gradient_width),
       "a transfer function of value and gradient needs whole rows of 2 nodes and more, and 2 rows");
+    require(c.opacity.empty() && c.rgb.empty() && c.gradient_opacity.empty(),
+      "a transfer function of value and gradient takes the place of the others");
+    require(c.lower < c.upper, "a transfer function's range must not be empty");
+    require(c.unit_distance > 0.0, "the opacity unit distance must be positive");
     require(c.gradient_upper > 0.0, "the largest gradient of a transfer function must be positive");
     require(grid.colour == VoxelColour::Value,
       "a transfer function of value and gradient gives the colour: the voxels cannot have theirs");
@@ -54,6 +60,7 @@ void validate(const Volume& volume)
   }
   if (volume.mask.labels)
   {
+    require(!volume.grid.sparse, "a sparse grid cannot have a mask");
     for (std::uint8_t n : volume.mask.classification_of_label)
     {
       require(n == Mask::hidden || n <= volume.label_classifications.size(),
@@ -70,7 +77,17 @@ void Scene::validate() const
   for (const Volume& volume : this->volumes)
   {
     brume::validate(volume);
+    require(this->blend_mode == BlendMode::Composite || volume.meaning == ValueMeaning::Classified,
+      "a density can only be drawn by emission and absorption: classify it");
   }
+  for (double value : this->isosurfaces)
+  {
+    require(std::isfinite(value), "the value of an isosurface must be finite");
+  }
+  require(this->blend_mode != BlendMode::Slice ||
+      (glm::dot(glm::dvec3(this->slice), glm::dvec3(this->slice)) > 0.0 &&
+        std::isfinite(glm::dot(this->slice, this->slice))),
+    "the plane of a slice needs a normal and finite numbers");
 }
 
 }

@@ -48,10 +48,10 @@ struct Classification
   /// gives VTK's gradient magnitude, in values per mean voxel.
   glm::dvec3 gradient_scale{ 1.0 };
 
-  /// A transfer function of value and gradient magnitude in place of all of the above: opacity and
-  /// colour, R, G, B, A a node, values from `lower` to `upper` along a row, gradient magnitudes from
-  /// 0 to `gradient_upper` from row to row; bilinear between nodes, the end's entry beyond. Empty:
-  /// none. `opacity` and `rgb` must then be empty too.
+  /// A transfer function of value and gradient magnitude in place of opacity, rgb and
+  /// gradient_opacity, which must then be empty: R, G, B, A a node, values from `lower` to `upper`
+  /// along a row, gradient magnitudes from 0 to `gradient_upper` from row to row. Colour and opacity
+  /// (not extinction) are bilinear between nodes; the end's entry holds beyond. Empty: none.
   std::vector<double> value_gradient;
   int value_gradient_width = 0; ///< nodes in a row; ≥ 2, and as many rows as fit, ≥ 2
 };
@@ -60,7 +60,8 @@ struct Classification
 /// nearest voxel (labels do not interpolate).
 struct Mask
 {
-  /// As many as the grid has voxels, x fastest; the caller owns the memory. Null: no mask.
+  /// As many as the grid has voxels, padding included, x fastest; the caller owns the memory. Null:
+  /// no mask.
   const std::uint8_t* labels = nullptr;
   static constexpr std::uint8_t hidden = 255;
   /// For each label the classification it is drawn with: 0 for Volume::classification, n for
@@ -73,12 +74,14 @@ struct Mask
 struct Cropping
 {
   bool enabled = false;
-  /// Two planes across each axis of index space, lower ≤ upper, in voxels.
+  /// Two planes across each axis of index space, lower ≤ upper, in voxels. They may lie outside the
+  /// grid.
   double lower[3] = { 0, 0, 0 };
   double upper[3] = { 0, 0, 0 };
   /// Bit x + 3 y + 9 z tells whether the region is drawn that is the x-th along the first axis (0
   /// before the lower plane, 1 between, 2 beyond the upper), the y-th and the z-th along the others.
-  /// The same 27 bits as vtkVolumeMapper's; 0x2000 is the box in the middle.
+  /// A ray that runs in a plane is between. The same 27 bits as vtkVolumeMapper's; 0x2000 is the box
+  /// in the middle.
   std::uint32_t regions = 0x2000;
 };
 
@@ -149,8 +152,12 @@ struct Volume
   Classification classification;
   Shading shading;
   /// A factor on the extinction (and so on the light sent), as vtkVolumeProperty's component weight;
-  /// ≥ 0.
+  /// ≥ 0. In projections it multiplies the volume's share of the pixel; surfaces do not take it.
   double weight = 1.0;
+  /// The values that AverageIntensity and Additive draw black and white: the range of all values of
+  /// the component, for VTK's mappers. Where the second is not above the first, all is black. In
+  /// grids whose voxels carry their colour (VoxelColour) the first component is the value meant.
+  double grey_range[2] = { 0.0, 1.0 };
 
   Mask mask;
   /// What labels of the mask are drawn with in place of `classification`.
@@ -168,35 +175,62 @@ struct Volume
   std::uint64_t medium_revision = 0;
 };
 
-/// How what a ray meets becomes a pixel. All but Composite draw Scene::volumes[0] alone.
+/// How what a ray meets becomes a pixel; docs/theory/modes.md. All but Composite need classified
+/// volumes. A ray that meets nothing that is drawn (cropped, clipped, masked parts are not) leaves
+/// its pixel as it was.
+///
+/// Of several volumes, the four projections draw each by itself; the pixel is the sum of their
+/// pixels times their weights, its opacity at most 1. Isosurface and Slice draw volumes[0] alone.
+/// No projection looks at gradient_opacity, Shading or the step.
 enum class BlendMode
 {
   /// Emission and absorption, front to back.
   Composite,
-  /// The largest value on the ray, classified: radiance is opacity · colour, transmittance
-  /// 1 − opacity. No shading.
+  /// The largest value on the ray, classified where it is first reached: opacity α and colour c
+  /// there make the radiance α c and the transmittance 1 − α. α is not spread over unit_distance.
+  /// A non-finite voxel counts as the volume's smallest value, so that it is never the largest.
   MaximumIntensity,
-  /// The smallest value, likewise.
+  /// The smallest value, likewise; a non-finite voxel counts as the volume's largest value.
   MinimumIntensity,
-  /// The mean of opacity · value over the parts of the ray whose value is within average_range, as
-  /// a grey fraction of the volume's range of values, opaque. See docs/theory/optics.md.
+  /// The mean of α · grey over the parts of the ray whose value is within Scene::average_range, up
+  /// to 1, opaque; grey is the fraction of Volume::grey_range. A ray without such parts draws
+  /// nothing.
   AverageIntensity,
-  /// The integral of opacity · value over the ray, per unit distance, as a grey fraction of the
-  /// volume's range of values, up to 1, opaque.
+  /// ∫ α · grey ds / unit_distance, up to 1, opaque.
   Additive,
-  /// Surfaces where the value is one of `isosurfaces`, classified by that value, lit as Shading has
-  /// it, seen through one another by their opacity.
+  /// Surfaces where the value passes through one of Scene::isosurfaces, classified by that value
+  /// (α is a surface's own opacity, not one of a length), lit as Shading has it, gradient_opacity
+  /// multiplied in, seen through one another. Where a part begins or ends there is no surface.
   Isosurface,
+  /// The plane Scene::slice, classified (α as for Isosurface) and lit.
+  Slice,
 };
 
-/// What is to be drawn. Several volumes may overlap: their extinctions add up, and each sends its
-/// own light. Independent components of one grid are volumes that share its voxels.
+/// How the light of volumes that overlap adds up. Each place sends Σ wσc in both, w being weights,
+/// σ extinctions and c colours.
+enum class Mixture
+{
+  /// The extinctions add up: Σ wσ. Matter in the same place.
+  Sum,
+  /// The extinction is Σ (wσ)² / Σ wσ, the mean of the volumes' own, weighted with themselves: what
+  /// VTK's mappers make of independent components. Not physical: two colours in one place make
+  /// their sum, as bright as each alone.
+  Components,
+};
+
+/// What is to be drawn. Several volumes may overlap. Independent components of one grid are volumes
+/// that share its voxels, with a component each, mixed as Mixture::Components.
 struct Scene
 {
   std::vector<Volume> volumes = std::vector<Volume>(1); ///< at least one
+  Mixture mixture = Mixture::Sum;
   BlendMode blend_mode = BlendMode::Composite;
+  /// Values outside are left out of AverageIntensity; both ends are inside.
   double average_range[2] = { -1e300, 1e300 };
+  /// Values of the surfaces, in any order. None: nothing is drawn.
   std::vector<double> isosurfaces;
+  /// The plane of BlendMode::Slice in the world: a x + b y + c z + d = 0.
+  glm::dvec4 slice{ 0.0, 0.0, 1.0, 0.0 };
 
   std::vector<Light> lights;
   Camera camera;
@@ -206,7 +240,8 @@ struct Scene
   std::vector<float> surface_depth;
 
   /// Throws std::invalid_argument for what no integrator can draw: see Grid::validate and the bounds
-  /// of Volume's parts; a density of several components, colours that are missing.
+  /// of Volume's parts; a density of several components, a density in another mode than Composite,
+  /// colours that are missing, isovalues or a slice that are not finite.
   void validate() const;
 };
 

@@ -135,7 +135,7 @@ struct Recorder
   /// Steps to the first place outside the invisible surroundings; 0 in a visible brick.
   float leap(const glm::vec3& place, const glm::vec3& delta) const
   {
-    const int edge = brume::BrickRanges::edge;
+    const int edge = 1 << Bricks.shift;
     int brick[3];
     for (int axis = 0; axis < 3; ++axis)
     {

@@ -29,18 +29,18 @@ TEST(TablePosition, ClampsAndInterpolates)
   EXPECT_DOUBLE_EQ(at(std::numeric_limits<double>::quiet_NaN()), 1.0);
 }
 
-TEST(LookupTable, HoldsDepthOfAStepAndColour)
+TEST(LookupTable, HoldsExtinctionAndColour)
 {
   Classification c = classify(
     -100.0, 300.0, [](double v) { return v > 0 ? 0.002 * v : 0.0; },
     [](double v) { return glm::dvec3(0.5, (v + 100) / 400, 0.0); });
   c.unit_distance = 0.25;
-  const LookupTable table = make_lookup_table(c, 2.0);
+  const LookupTable table = make_lookup_table(c);
   for (std::size_t i = 0; i < table.nodes.size(); ++i)
   {
     const double v = -100.0 + 400.0 * i / (table.nodes.size() - 1);
-    const double depth = v > 0 ? -std::log1p(-0.002 * v) / 0.25 * 2.0 : 0.0;
-    EXPECT_NEAR(table.nodes[i].optical_depth, depth, 1e-5 * depth + 1e-9);
+    const double depth = v > 0 ? -std::log1p(-0.002 * v) / 0.25 : 0.0;
+    EXPECT_NEAR(table.nodes[i].extinction, depth, 1e-5 * depth + 1e-9);
     EXPECT_NEAR(table.nodes[i].green, (v + 100) / 400, 1e-6);
   }
   EXPECT_FLOAT_EQ(table.brightest, 1.0f);
@@ -52,10 +52,10 @@ TEST(LookupTable, EmptyValueHasNoOpticalDepthWhereOneHasNone)
 {
   Classification c =
     classify(0.0, 1.0, [](double v) { return v < 0.5 ? 0.5 : 0.0; }, white);
-  const LookupTable table = make_lookup_table(c, 1.0);
+  const LookupTable table = make_lookup_table(c);
   EXPECT_FALSE(table.can_show(table.empty_value, table.empty_value));
   c = classify(2.0, 3.0, [](double) { return 0.5; }, white);
-  EXPECT_FLOAT_EQ(make_lookup_table(c, 1.0).empty_value, 2.0f); // nothing is empty here
+  EXPECT_FLOAT_EQ(make_lookup_table(c).empty_value, 2.0f); // nothing is empty here
 }
 
 // No value that the kernel would draw may be in a range that cannot show.
@@ -70,12 +70,12 @@ TEST(LookupTable, CanShowIsRightForEveryRange)
     const double to = from + uniform(0.01, 20.0);
     const Classification c = classify(
       0.0, 100.0, [&](double v) { return v > from && v < to ? 0.3 : 0.0; }, white, 2001);
-    const LookupTable table = make_lookup_table(c, 1.0);
+    const LookupTable table = make_lookup_table(c);
     const auto depth = [&](double v)
     {
       const TablePosition at = table_position(v, 0.0, 100.0, table.nodes.size());
-      return table.nodes[at.index].optical_depth * (1.0 - at.fraction) +
-        table.nodes[at.index + 1].optical_depth * at.fraction;
+      return table.nodes[at.index].extinction * (1.0 - at.fraction) +
+             table.nodes[at.index + 1].extinction * at.fraction;
     };
     for (int i = 0; i < 300; ++i)
     {
@@ -110,7 +110,7 @@ TEST(LookupTable, GradientFactorIsClampedToZeroToOne)
   Classification c = classify(0.0, 1.0, [](double v) { return v; }, white, 3);
   c.gradient_opacity = { -1.0, 2.0 };
   c.gradient_upper = 8.0;
-  const LookupTable table = make_lookup_table(c, 1.0);
+  const LookupTable table = make_lookup_table(c);
   ASSERT_EQ(table.gradient_factor.size(), table.nodes.size());
   EXPECT_EQ(table.gradient_factor.front(), 0.0f);
   EXPECT_EQ(table.gradient_factor.back(), 1.0f);
@@ -124,11 +124,11 @@ TEST(LookupTable, KeepsAPeakOfSixteenBitData)
   const Classification c = classify(
     0.0, 65535.0, [](double v) { return std::max(0.0, 0.5 - std::abs(v - 30007.0) * 0.125); }, white,
     65537);
-  const LookupTable table = make_lookup_table(c, 1.0);
+  const LookupTable table = make_lookup_table(c);
   EXPECT_TRUE(table.can_show(30007.0f, 30007.0f));
   const TablePosition at = table_position(30007.0, 0.0, 65535.0, table.nodes.size());
-  const double depth = table.nodes[at.index].optical_depth * (1.0 - at.fraction) +
-    table.nodes[at.index + 1].optical_depth * at.fraction;
+  const double depth = table.nodes[at.index].extinction * (1.0 - at.fraction) +
+                       table.nodes[at.index + 1].extinction * at.fraction;
   EXPECT_NEAR(depth, std::log(2.0), 0.15); // the peak may fall between two nodes by half a value
 }
 
@@ -139,7 +139,7 @@ TEST(LookupTable, RefusesWhatIsNoFunction)
   {
     Classification c = good;
     change(c);
-    EXPECT_THROW(make_lookup_table(c, 1.0), std::invalid_argument);
+    EXPECT_THROW(make_lookup_table(c), std::invalid_argument);
   };
   refuses([](Classification& c) { c.opacity.resize(1); });
   refuses([](Classification& c) { c.rgb.resize(6); });

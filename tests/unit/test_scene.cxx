@@ -153,4 +153,43 @@ TEST(Film, BeginsClearAndGoesOverABackground)
     (std::vector<float>{ 0.25f, 0.5f, 2.0f, 3.125f, 0.0f, 2.0f }));
 }
 
+TEST_F(Refusal, OfModes)
+{
+  // In the other modes a density has no colour.
+  refuses(ValueMeaning::Density, [](Scene& s) { s.blend_mode = BlendMode::MaximumIntensity; });
+  refuses(ValueMeaning::Classified,
+    [](Scene& s)
+    {
+      s.blend_mode = BlendMode::Isosurface;
+      s.isosurfaces = { 20.0, nan };
+    });
+  refuses(ValueMeaning::Classified,
+    [](Scene& s)
+    {
+      s.blend_mode = BlendMode::Slice;
+      s.slice = glm::dvec4(0.0, 0.0, 0.0, 1.0);
+    });
+  refuses(ValueMeaning::Classified,
+    [](Scene& s)
+    {
+      s.blend_mode = BlendMode::Slice;
+      s.slice = glm::dvec4(0.0, 0.0, infinity, 1.0);
+    });
+  const auto two_dimensional = [](Scene& s)
+  {
+    Classification& c = s.volumes[0].classification;
+    c.opacity.clear();
+    c.rgb.clear();
+    c.value_gradient.assign(16, 0.5);
+    c.value_gradient_width = 2;
+    return &c;
+  };
+  refuses(ValueMeaning::Classified,
+    [&](Scene& s) { two_dimensional(s)->value_gradient.resize(8); });
+  refuses(ValueMeaning::Classified,
+    [&](Scene& s) { two_dimensional(s)->opacity = { 0.0, 1.0 }; });
+  refuses(ValueMeaning::Classified, [&](Scene& s) { two_dimensional(s)->gradient_upper = 0.0; });
+  refuses(ValueMeaning::Classified, [&](Scene& s) { two_dimensional(s)->unit_distance = 0.0; });
+}
+
 }

@@ -1,0 +1,241 @@
+#include "vdb_file.h"
+
+#include "file_access.h"
+#include "scan_header.h"
+#include "vdb_bricks.h"
+
+#include "Transport/sparse_voxels.h"
+
+#include <openvdb/io/Archive.h>
+#include <openvdb/io/File.h>
+#include <openvdb/io/GridDescriptor.h>
+
+#include <algorithm>
+#include <fstream>
+#include <new>
+
+namespace brume::io
+{
+
+namespace
+{
+
+const char Magic[] = { ' ', 'B', 'D', 'V', 0, 0, 0, 0 };
+
+/// Reads the list of grids without OpenVDB's File, which believes what a file says.
+class Listing : public openvdb::io::Archive
+{
+public:
+  /// The grids' descriptors in the order of the file; none for a file without offsets (a stream
+  /// that was saved), which has to be read whole.
+  std::vector<openvdb::io::GridDescriptor> read(std::istream& in)
+  {
+    this->readHeader(in);
+    this->setFormatVersion(in);
+    this->setLibraryVersion(in);
+    openvdb::MetaMap metadata;
+    metadata.readMeta(in);
+    std::vector<openvdb::io::GridDescriptor> grids;
+    if (!this->inputHasGridOffsets())
+    {
+      return grids;
+    }
+    for (std::int32_t left = readGridCount(in); left > 0; --left)
+    {
+      openvdb::io::GridDescriptor grid;
+      grid.read(in);
+      grids.push_back(grid);
+      grid.seekToEnd(in);
+    }
+    return grids;
+  }
+};
+
+[[noreturn]] void fail_openvdb(const std::string& path, const std::exception& error)
+{
+  fail(path, "OpenVDB cannot read it (" + std::string(error.what()) + ")",
+    "it may be damaged: write or copy it again");
+}
+
+std::string type_of(const openvdb::GridBase& grid)
+{
+  return grid.saveFloatAsHalf() && grid.valueType() == "float" ? "half" : grid.valueType();
+}
+
+std::string kind_of(const openvdb::GridBase& grid)
+{
+  return openvdb::GridBase::gridClassToString(grid.getGridClass());
+}
+
+std::string refusal_of(const openvdb::GridBase& grid)
+{
+  if (!grid.isType<openvdb::FloatGrid>() && !grid.isType<openvdb::DoubleGrid>())
+  {
+    return "holds " + grid.valueType() + ": name a grid of floats";
+  }
+  if (grid.getGridClass() == openvdb::GRID_LEVEL_SET)
+  {
+    return "is a level set, distances to a surface: convert it to a fog volume "
+           "(openvdb::tools::sdfToFogVolume, or Convert VDB in Houdini)";
+  }
+  if (!grid.transform().isLinear())
+  {
+    return "has a perspective (frustum) transform: resample it to a linear one";
+  }
+  return {};
+}
+
+/// "density", of "density" + separator + "1" as the file has it "density[1]".
+std::string spoken_name(const openvdb::io::GridDescriptor& grid)
+{
+  return openvdb::io::GridDescriptor::nameAsString(grid.uniqueName());
+}
+
+/// The file, open, with its header checked. Delayed loading: leaves are read when they are asked for.
+std::unique_ptr<openvdb::io::File> open_file(const std::string& path)
+{
+  openvdb::initialize();
+  auto file = std::make_unique<openvdb::io::File>(path);
+  file->setCopyMaxBytes(0); // no private copy of it in a temporary folder
+  file->open();
+  return file;
+}
+
+/// Calls work() and puts what OpenVDB throws into words.
+template <class Work>
+auto guarded(const std::string& path, const Work& work)
+{
+  try
+  {
+    return work();
+  }
+  catch (const openvdb::Exception& error)
+  {
+    fail_openvdb(path, error);
+  }
+  catch (const std::ios_base::failure&)
+  {
+    fail(path, "the file is cut short", "copy or download it again");
+  }
+  catch (const std::length_error& error)
+  {
+    fail_openvdb(path, error);
+  }
+}
+
+}
+
+bool looks_like_vdb(const std::string& path)
+{
+  std::ifstream in(path, std::ios::binary);
+  char bytes[sizeof(Magic)] = {};
+  return in.read(bytes, sizeof(bytes)) && std::equal(bytes, bytes + sizeof(bytes), Magic);
+}
+
+std::vector<VdbGrid> list_vdb_grids(const std::string& path)
+{
+  const std::uint64_t length = file_length(path, path);
+  if (length == 0)
+  {
+    fail(path, "is empty", "copy or download it again");
+  }
+  if (!looks_like_vdb(path))
+  {
+    fail(path, "is not an OpenVDB file", "name a .vdb file");
+  }
+  return guarded(path,
+    [&]
+    {
+      openvdb::initialize();
+      std::vector<openvdb::io::GridDescriptor> descriptors;
+      {
+        std::ifstream in(path, std::ios::binary);
+        in.exceptions(std::ios::failbit | std::ios::badbit);
+        descriptors = Listing().read(in);
+      }
+      for (const openvdb::io::GridDescriptor& grid : descriptors)
+      {
+        if (static_cast<std::uint64_t>(std::max<std::int64_t>(grid.getEndPos(), 0)) > length)
+        {
+          fail(path, "the file is cut short: its grid '" + spoken_name(grid) + "' needs " +
+              std::to_string(grid.getEndPos()) + " bytes, and it has " + std::to_string(length),
+            "copy or download it again");
+        }
+      }
+      const auto file = open_file(path);
+      std::vector<std::string> names;
+      for (const openvdb::io::GridDescriptor& grid : descriptors)
+      {
+        names.push_back(spoken_name(grid));
+      }
+      if (descriptors.empty())
+      {
+        for (auto name = file->beginName(); name != file->endName(); ++name)
+        {
+          names.push_back(name.gridName());
+        }
+      }
+      std::vector<VdbGrid> grids;
+      for (const std::string& name : names)
+      {
+        const openvdb::GridBase::Ptr grid = file->readGridMetadata(name);
+        grids.push_back({ name, type_of(*grid), kind_of(*grid), refusal_of(*grid) });
+      }
+      return grids;
+    });
+}
+
+VdbVolume read_vdb_grid(const std::string& path, const VdbGrid& which, const Progress& progress)
+{
+  return guarded(path,
+    [&]
+    {
+      if (!which.refusal.empty())
+      {
+        const std::size_t colon = which.refusal.find(": ");
+        fail(path, "its grid '" + which.name + "' " + which.refusal.substr(0, colon),
+          which.refusal.substr(colon + 2));
+      }
+      const auto file = open_file(path);
+      const openvdb::GridBase::Ptr grid = file->readGrid(which.name);
+      VdbVolume volume;
+      volume.name = which.name;
+      volume.active_voxels = grid->activeVoxelCount();
+      const openvdb::Mat4R matrix =
+        grid->constTransform().baseMap()->getAffineMap()->getMat4();
+      for (int row = 0; row < 4; ++row)
+      {
+        for (int column = 0; column < 4; ++column)
+        {
+          volume.world_from_index[4 * row + column] = matrix(column, row); // OpenVDB's are rows
+        }
+      }
+      const bool half = which.type == "half";
+      try
+      {
+        if (grid->isType<openvdb::FloatGrid>())
+        {
+          volume.voxels =
+            take_voxels(static_cast<openvdb::FloatGrid&>(*grid).tree(), half, progress);
+        }
+        else
+        {
+          volume.voxels =
+            take_voxels(static_cast<openvdb::DoubleGrid&>(*grid).tree(), half, progress);
+          volume.messages.push_back("its doubles are rounded to single precision");
+        }
+      }
+      catch (const std::invalid_argument& error)
+      {
+        fail(path, "its grid '" + which.name + "' cannot be held: " + error.what(),
+          "take a part of it");
+      }
+      if (!volume.voxels)
+      {
+        fail(path, "its grid '" + which.name + "' holds no voxels", "name another grid");
+      }
+      return volume;
+    });
+}
+
+}

@@ -1,0 +1,54 @@
+// OpenVDB files: what is in one, and a grid of it as sparse voxels. Private to this module; OpenVDB's
+// own headers stay in vdb_file.cxx and vdb_bricks.cxx.
+#pragma once
+
+#include "voxel_reader.h" // for Progress
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace brume
+{
+class SparseVoxels;
+}
+
+namespace brume::io
+{
+
+/// A grid of a file, without its voxels.
+struct VdbGrid
+{
+  std::string name;  ///< as the file has it; a second one of the same name is "name[1]"
+  std::string type;  ///< "float", "half" (a float grid stored as such), "double", "vec3s", …
+  std::string kind;  ///< "fog volume", "level set", "staggered", "unknown"
+  /// Why it cannot be drawn and what to do, "is a level set: …"; empty where it can.
+  std::string refusal;
+};
+
+/// A grid with its voxels.
+struct VdbVolume
+{
+  std::string name;
+  std::shared_ptr<const SparseVoxels> voxels;
+  /// The file's voxel (i, j, k) in its world, row-major 4 × 4: world = matrix · (i, j, k, 1).
+  std::array<double, 16> world_from_index{};
+  std::uint64_t active_voxels = 0;
+  std::vector<std::string> messages; ///< what was settled by itself, one line each
+};
+
+/// Whether the file begins as OpenVDB files do. Throws nothing.
+bool looks_like_vdb(const std::string& path);
+
+/// The grids in the order of the file. Nothing of their size is read; a file that is shorter than
+/// its grids is found out. Throws std::runtime_error as fail() in scan_header.h does.
+std::vector<VdbGrid> list_vdb_grids(const std::string& path);
+
+/// Reads one grid of list_vdb_grids(). Its voxels go from the file to their bricks at once, on all
+/// processors, and are never held twice. Throws as above; std::bad_alloc where memory runs out.
+VdbVolume read_vdb_grid(
+  const std::string& path, const VdbGrid& grid, const Progress& progress);
+
+}

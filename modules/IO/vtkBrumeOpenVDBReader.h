@@ -1,0 +1,116 @@
+/**
+ * @class vtkBrumeOpenVDBReader
+ * @brief Reads a grid of an OpenVDB file as a sparse volume.
+ *
+ * The output is one vtkBrumeSparseVolume. Voxels and tiles go from the file straight into its bricks,
+ * on all processors; the volume is never made dense. Floats, floats that were saved in half precision
+ * (they stay so in memory) and doubles (rounded to floats) are read, under any affine transform.
+ * Values of inactive voxels and tiles count as they do in OpenVDB: as values. Beyond the box around
+ * what is stored the volume ends, whatever the background.
+ *
+ * Level sets, grids of other types and perspective (frustum) transforms are refused with a word on
+ * what to do. When something is wrong the output is empty, ErrorEvent is invoked, and
+ * GetErrorMessage() holds one line.
+ *
+ * Blocks of any of OpenVDB's compressions are decompressed as the voxels are read. A file must not be
+ * changed while it is read.
+ */
+#ifndef vtkBrumeOpenVDBReader_h
+#define vtkBrumeOpenVDBReader_h
+
+#include "vtkBrumeIOModule.h"
+#include "vtkDataObjectAlgorithm.h"
+
+#include <memory> // for std::unique_ptr
+
+class vtkBrumeSparseVolume;
+
+class VTKBRUMEIO_EXPORT vtkBrumeOpenVDBReader : public vtkDataObjectAlgorithm
+{
+public:
+  static vtkBrumeOpenVDBReader* New();
+  vtkTypeMacro(vtkBrumeOpenVDBReader, vtkDataObjectAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The file to read. Default: none.
+   */
+  vtkSetFilePathMacro(FileName);
+  vtkGetFilePathMacro(FileName);
+  ///@}
+
+  ///@{
+  /**
+   * The grid to read, by its name; "NAME[1]" is the second of a name. Default: none, which takes the
+   * first in the file that can be read.
+   */
+  vtkSetStringMacro(GridName);
+  vtkGetStringMacro(GridName);
+  ///@}
+
+  ///@{
+  /**
+   * What the file holds, known after UpdateInformation(): the names of its grids in their order, the
+   * type of their values ("float", "half", "vec3s", …), and what they are ("fog volume",
+   * "level set", "unknown"). Null for an index that there is not.
+   */
+  int GetNumberOfGrids() const;
+  const char* GetNameOfGrid(int index) const;
+  const char* GetTypeOfGrid(int index) const;
+  const char* GetKindOfGrid(int index) const;
+  ///@}
+
+  /**
+   * Which grid the output is, -1 before an update and after one that failed.
+   */
+  vtkGetMacro(GridIndex, int);
+
+  /**
+   * What went wrong in the last update, "FILE: what is wrong: what to do", without a line end;
+   * empty when nothing did. Valid until the next update.
+   */
+  const char* GetErrorMessage() const;
+
+  ///@{
+  /**
+   * What the reader settled by itself in the last update and the user may want to know, one line
+   * each. GetMessage returns null beyond the last.
+   */
+  int GetNumberOfMessages() const;
+  const char* GetMessage(int index) const;
+  ///@}
+
+  vtkBrumeSparseVolume* GetOutput();
+
+  /** Whether a file's content is OpenVDB's. Never reports an error. */
+  static bool CanReadFile(const char* path);
+
+protected:
+  vtkBrumeOpenVDBReader();
+  ~vtkBrumeOpenVDBReader() override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestDataObject(
+    vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector) override;
+  int RequestInformation(
+    vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector) override;
+  int RequestData(
+    vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector) override;
+
+  char* FileName = nullptr;
+  char* GridName = nullptr;
+  int GridIndex = -1;
+
+private:
+  vtkBrumeOpenVDBReader(const vtkBrumeOpenVDBReader&) = delete;
+  void operator=(const vtkBrumeOpenVDBReader&) = delete;
+
+  /// Runs work(), and puts what it throws into GetErrorMessage() and vtkErrorMacro.
+  template <class Work>
+  void Guard(const Work& work);
+
+  struct Internals;
+  std::unique_ptr<Internals> Internal;
+};
+
+#endif

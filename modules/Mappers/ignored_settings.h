@@ -1,0 +1,22 @@
+// What VTK's objects ask for and the mappers do not do, by name. Internal to Mappers.
+#ifndef ignored_settings_h
+#define ignored_settings_h
+
+#include <string>
+#include <vector>
+
+class vtkVolume;
+class vtkVolumeMapper;
+
+namespace brume
+{
+struct MaskSettings;
+
+/// Settings of the mapper and of the volume's property that are not followed, as they stand now:
+/// only those that ask for something else than is drawn.
+std::vector<std::string> ignored_settings(
+  vtkVolumeMapper* mapper, vtkVolume* volume, const MaskSettings& mask, int components);
+
+}
+
+#endif

@@ -1,0 +1,138 @@
+#include "march_report.h"
+
+#include <nlohmann/json.hpp>
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <string>
+
+namespace brume
+{
+
+namespace
+{
+
+nlohmann::json effect(const char* name, bool on, const std::string& reason, double bound = 0.0)
+{
+  return { { "name", name }, { "on", on }, { "reason", reason }, { "error_bound", bound } };
+}
+
+template <class Condition>
+bool any(const Scene& scene, Condition condition)
+{
+  return std::any_of(scene.volumes.begin(), scene.volumes.end(), condition);
+}
+
+bool shades(const Scene& scene)
+{
+  const bool lit =
+    scene.blend_mode == BlendMode::Composite || scene.blend_mode == BlendMode::Isosurface;
+  return lit && any(scene, [](const Volume& v) { return v.shading.enabled; });
+}
+
+bool has_gradient_opacity(const Scene& scene)
+{
+  const auto has = [](const Classification& c)
+  { return !c.gradient_opacity.empty() || !c.value_gradient.empty(); };
+  return any(scene,
+    [&](const Volume& v)
+    {
+      return has(v.classification) ||
+        std::any_of(v.label_classifications.begin(), v.label_classifications.end(), has);
+    });
+}
+
+}
+
+std::int64_t peak_memory_bytes()
+{
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return std::int64_t{ usage.ru_maxrss } * 1024; // Linux counts in KiB
+}
+
+const char* blend_mode_name(BlendMode mode)
+{
+  switch (mode)
+  {
+    case BlendMode::MaximumIntensity:
+      return "mip";
+    case BlendMode::MinimumIntensity:
+      return "minip";
+    case BlendMode::AverageIntensity:
+      return "average";
+    case BlendMode::Additive:
+      return "additive";
+    case BlendMode::Isosurface:
+      return "isosurface";
+    default:
+      return "composite";
+  }
+}
+
+bool is_radiometric(const Scene& scene, bool window_level)
+{
+  return scene.blend_mode == BlendMode::Composite && !window_level && !shades(scene) &&
+    !has_gradient_opacity(scene);
+}
+
+nlohmann::json effects_of(const Scene& scene, const MarchSettings& settings,
+  const MarchStatistics& march, bool window_level)
+{
+  const bool composite = scene.blend_mode == BlendMode::Composite;
+  const bool seen = march.visible_bricks > 0;
+  const bool shading = shades(scene);
+  const bool gradient = has_gradient_opacity(scene);
+  const bool masked = any(scene, [](const Volume& v) { return v.mask.labels != nullptr; });
+  const bool cropped = any(scene, [](const Volume& v) { return v.cropping.enabled; });
+  const bool clipped = any(scene, [](const Volume& v) { return !v.clipping_planes.empty(); });
+  const std::string mode = blend_mode_name(scene.blend_mode);
+  nlohmann::json effects = nlohmann::json::array();
+  effects.push_back(effect("absorption", composite && seen,
+    !composite ? "the blend mode is " + mode
+      : seen   ? "the opacity function is above 0 for values of the data"
+               : "the opacity function is 0 for every value of the data"));
+  effects.push_back(effect("emission", composite && seen,
+    composite ? "the transfer functions' colour is the source, as in VTK's composite mode"
+              : "the blend mode is " + mode));
+  effects.push_back(effect("scattering", false,
+    "a vtkVolumeProperty without a medium has none: VTK's composite mode is emission and "
+    "absorption"));
+  effects.push_back(effect("projection", !composite,
+    composite ? "the blend mode is composite"
+              : "the blend mode is " + mode + "; not a physical term"));
+  effects.push_back(effect("several volumes", composite && scene.volumes.size() > 1,
+    std::to_string(scene.volumes.size()) +
+      (scene.volumes.size() > 1 ? " volumes or components: their extinctions add up" : " volume")));
+  effects.push_back(effect("gradient shading", shading,
+    shading ? "vtkVolumeProperty::Shade is on; not a physical term"
+            : "vtkVolumeProperty::Shade is off"));
+  effects.push_back(effect("gradient opacity", gradient,
+    gradient ? "the property has a function of the gradient; not a physical term"
+             : "the property has no function of the gradient"));
+  effects.push_back(effect("mask", masked,
+    masked ? "the mapper has a mask" : "the mapper has no mask"));
+  effects.push_back(effect("cropping", cropped,
+    cropped ? "vtkVolumeMapper::Cropping is on" : "vtkVolumeMapper::Cropping is off"));
+  effects.push_back(effect("clipping planes", clipped,
+    clipped ? "the mapper has clipping planes" : "the mapper has no clipping planes"));
+  effects.push_back(effect("surfaces", !scene.surface_depth.empty(),
+    scene.surface_depth.empty() ? "no opaque geometry is shown with the volume"
+                                : "rays end at opaque geometry"));
+  effects.push_back(effect("jitter", settings.jitter,
+    settings.jitter ? "the mapper's UseJittering is on: bands of steps become noise"
+                    : "the mapper's UseJittering is off"));
+  effects.push_back(effect("final colour window", window_level,
+    window_level ? "FinalColorWindow or FinalColorLevel is set; not a physical term"
+                 : "FinalColorWindow is 1 and FinalColorLevel is 0.5"));
+  effects.push_back(effect("leaving rays early", seen,
+    "a ray ends when what is behind cannot change its pixel by more than the bound",
+    settings.leave_error));
+  effects.push_back(effect("space leaping", march.visible_bricks < march.bricks,
+    std::to_string(march.bricks - march.visible_bricks) + " of " + std::to_string(march.bricks) +
+      " bricks hold no value that can be seen"));
+  return effects;
+}
+
+}

@@ -1,0 +1,31 @@
+// What a march tells of itself. Internal to Mappers.
+#ifndef march_report_h
+#define march_report_h
+
+#include "Transport/marcher.h"
+#include "Transport/scene.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstdint>
+
+namespace brume
+{
+
+/// The most memory that the process has held so far.
+std::int64_t peak_memory_bytes();
+
+/// The effects that a picture was made with and without, as a JSON list of
+/// {name, on, reason, error_bound}.
+nlohmann::json effects_of(const Scene& scene, const MarchSettings& settings,
+  const MarchStatistics& march, bool window_level);
+
+/// Whether nothing but physics had a part in the picture.
+bool is_radiometric(const Scene& scene, bool window_level);
+
+/// The scene's blend mode as the command line calls it.
+const char* blend_mode_name(BlendMode mode);
+
+}
+
+#endif

@@ -1,0 +1,45 @@
+// Volumes of one renderer that are drawn as one. Internal to Mappers.
+#ifndef volume_group_h
+#define volume_group_h
+
+#include "vtkNew.h"
+#include "vtkWeakPointer.h"
+
+#include <set>
+#include <vector>
+
+class vtkCallbackCommand;
+class vtkRenderer;
+class vtkVolume;
+
+namespace brume
+{
+
+/// The visible volumes of the renderer that `may_join` and whose bounds meet those of `first`, or of
+/// one that does, and so on; without `first`, in the renderer's order.
+std::vector<vtkVolume*> overlapping_volumes(
+  vtkRenderer* renderer, vtkVolume* first, bool (*may_join)(vtkVolume* first, vtkVolume* other));
+
+/// Remembers, for the rest of a renderer's frame, that a volume was drawn together with another.
+class DrawnWithOthers
+{
+public:
+  DrawnWithOthers();
+  ~DrawnWithOthers();
+  DrawnWithOthers(const DrawnWithOthers&) = delete;
+  void operator=(const DrawnWithOthers&) = delete;
+
+  void Remember(vtkRenderer* renderer, vtkVolume* volume);
+  bool Includes(vtkRenderer* renderer, vtkVolume* volume) const;
+
+private:
+  void Forget();
+
+  vtkWeakPointer<vtkRenderer> Renderer;
+  std::set<vtkVolume*> Volumes;
+  vtkNew<vtkCallbackCommand> FrameOver;
+};
+
+}
+
+#endif

@@ -1,0 +1,30 @@
+// Reading grids of std::int8_t, for every SIMD target.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "Transport/field_int8.cxx"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "Transport/field-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace brume
+{
+namespace HWY_NAMESPACE
+{
+FieldFunctions field_int8(const FieldView& view)
+{
+  switch (view.stride[0])
+  {
+    case 1:
+      return field_with_pairs<std::int8_t, 8>();
+    case 2:
+      return field_with_pairs<std::int8_t, 16>();
+    case 3:
+      return field_with_pairs<std::int8_t, 24>();
+    default:
+      return field_with_pairs<std::int8_t, 0>();
+  }
+}
+}
+}
+HWY_AFTER_NAMESPACE();

@@ -1,0 +1,237 @@
+#include "Transport/reference_ray.h"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace brume
+{
+
+bool PixelRay::empty() const
+{
+  return std::all_of(this->volumes.begin(), this->volumes.end(),
+    [](const VolumeRay& ray) { return ray.parts.empty(); });
+}
+
+std::vector<RayInterval> PixelRay::intervals() const
+{
+  std::vector<double> ends;
+  for (const VolumeRay& ray : this->volumes)
+  {
+    for (const RayPart& part : ray.parts)
+    {
+      ends.push_back(part.from);
+      ends.push_back(part.to);
+    }
+  }
+  std::sort(ends.begin(), ends.end());
+  std::vector<RayInterval> result;
+  for (std::size_t i = 1; i < ends.size(); ++i)
+  {
+    RayInterval interval{ ends[i - 1], ends[i], {} };
+    if (!(interval.from < interval.to))
+    {
+      continue;
+    }
+    const double middle = 0.5 * (interval.from + interval.to);
+    for (std::size_t v = 0; v < this->volumes.size(); ++v)
+    {
+      for (const RayPart& part : this->volumes[v].parts)
+      {
+        if (part.from <= middle && middle <= part.to)
+        {
+          interval.volumes.push_back(static_cast<int>(v));
+          break;
+        }
+      }
+    }
+    if (!interval.volumes.empty())
+    {
+      result.push_back(interval);
+    }
+  }
+  return result;
+}
+
+ReferenceRays::ReferenceRays(const Scene& scene, int width, int height)
+  : TheScene(scene)
+  , Width(width)
+  , Height(height)
+{
+  for (const Volume& volume : scene.volumes)
+  {
+    const glm::dmat4 world_from_index = volume.world_from_data * volume.data_from_index;
+    Frame frame;
+    frame.index_from_clip = glm::inverse(scene.camera.clip_from_world * world_from_index);
+    frame.data_from_index = glm::dmat3(volume.data_from_index);
+    frame.world_from_index = glm::dmat3(world_from_index);
+    for (const glm::dvec4& plane : volume.clipping_planes)
+    {
+      frame.planes.push_back(glm::transpose(world_from_index) * plane);
+    }
+    this->Frames.push_back(frame);
+  }
+}
+
+PixelRay ReferenceRays::ray(int x, int y) const
+{
+  const double ndc_x = (2.0 * x + 1.0) / this->Width - 1.0;
+  const double ndc_y = (2.0 * y + 1.0) / this->Height - 1.0;
+  double ndc_far = 1.0;
+  if (!this->TheScene.surface_depth.empty())
+  {
+    const std::size_t pixel = static_cast<std::size_t>(y) * this->Width + x;
+    ndc_far = std::min(ndc_far, double(this->TheScene.surface_depth[pixel]));
+  }
+  PixelRay result;
+  result.volumes.resize(this->Frames.size());
+  for (std::size_t v = 0; v < this->Frames.size(); ++v)
+  {
+    const Frame& frame = this->Frames[v];
+    const glm::dvec4 h_near = frame.index_from_clip * glm::dvec4(ndc_x, ndc_y, -1.0, 1.0);
+    const glm::dvec4 h_far = frame.index_from_clip * glm::dvec4(ndc_x, ndc_y, ndc_far, 1.0);
+    VolumeRay& ray = result.volumes[v];
+    ray.begin = glm::dvec3(h_near) / h_near.w;
+    ray.along = glm::dvec3(h_far) / h_far.w - ray.begin;
+    ray.length = glm::length(frame.data_from_index * ray.along);
+    result.world_length = glm::length(frame.world_from_index * ray.along);
+    if (ndc_far > -1.0 && std::isfinite(ray.length))
+    {
+      this->find_parts(this->TheScene.volumes[v], frame, ray);
+    }
+  }
+  return result;
+}
+
+void ReferenceRays::find_parts(const Volume& volume, const Frame& frame, VolumeRay& ray) const
+{
+  RayPart whole{ 0.0, 1.0 };
+  // Half spaces offset + s · slope ≥ 0. Where a ray stands still, it is inside or not.
+  const auto keep = [&](double offset, double slope)
+  {
+    if (slope == 0.0)
+    {
+      whole.to = offset >= 0.0 ? whole.to : whole.from;
+    }
+    else if (slope > 0.0)
+    {
+      whole.from = std::max(whole.from, -offset / slope);
+    }
+    else
+    {
+      whole.to = std::min(whole.to, -offset / slope);
+    }
+  };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    keep(ray.begin[axis] - volume.grid.lower(axis), ray.along[axis]);
+    keep(volume.grid.upper(axis) - ray.begin[axis], -ray.along[axis]);
+  }
+  for (const glm::dvec4& plane : frame.planes)
+  {
+    keep(glm::dot(plane, glm::dvec4(ray.begin, 1.0)), glm::dot(glm::dvec3(plane), ray.along));
+  }
+  if (!(whole.from < whole.to))
+  {
+    return;
+  }
+  const Cropping& cropping = volume.cropping;
+  if (!cropping.enabled)
+  {
+    ray.parts.push_back(whole);
+    return;
+  }
+  std::vector<double> cuts{ whole.from, whole.to };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (double plane : { cropping.lower[axis], cropping.upper[axis] })
+    {
+      const double s = (plane - ray.begin[axis]) / ray.along[axis];
+      if (s > whole.from && s < whole.to)
+      {
+        cuts.push_back(s);
+      }
+    }
+  }
+  std::sort(cuts.begin(), cuts.end());
+  for (std::size_t i = 1; i < cuts.size(); ++i)
+  {
+    const glm::dvec3 middle = ray.place(0.5 * (cuts[i - 1] + cuts[i]));
+    int region = 0;
+    for (int axis = 2; axis >= 0; --axis)
+    {
+      const int side =
+        middle[axis] < cropping.lower[axis] ? 0 : middle[axis] > cropping.upper[axis] ? 2 : 1;
+      region = 3 * region + side;
+    }
+    if ((cropping.regions >> region & 1u) == 0 || !(cuts[i - 1] < cuts[i]))
+    {
+      continue;
+    }
+    if (!ray.parts.empty() && ray.parts.back().to == cuts[i - 1])
+    {
+      ray.parts.back().to = cuts[i];
+    }
+    else
+    {
+      ray.parts.push_back({ cuts[i - 1], cuts[i] });
+    }
+  }
+}
+
+CellWalk::CellWalk(const RayPart& part)
+  : Part(part)
+  , At(part.from)
+{
+}
+
+void CellWalk::add(const VolumeRay& ray, const Volume& volume)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    // Trilinear cells end at voxels; the nearest voxel's, and those of a mask, half-way between.
+    for (double offset : { 0.0, 0.5 })
+    {
+      const bool ends_here = offset == 0.0 ? volume.grid.linear
+                                           : !volume.grid.linear || volume.mask.labels != nullptr;
+      if (!ends_here || ray.along[axis] == 0.0)
+      {
+        continue;
+      }
+      Cut cut{ ray.begin[axis], ray.along[axis], offset, 0.0, 0.0 };
+      const double start = cut.begin + cut.along * this->At - offset;
+      cut.border = cut.along > 0.0 ? std::floor(start) + 1.0 : std::ceil(start) - 1.0;
+      cut.next = (cut.border + offset - cut.begin) / cut.along;
+      this->Cuts.push_back(cut);
+    }
+  }
+}
+
+bool CellWalk::next(RayPart& stretch)
+{
+  if (this->At >= this->Part.to)
+  {
+    return false;
+  }
+  stretch = { this->At, this->Part.to };
+  for (const Cut& cut : this->Cuts)
+  {
+    stretch.to = std::min(stretch.to, cut.next);
+  }
+  for (Cut& cut : this->Cuts)
+  {
+    if (cut.next <= stretch.to)
+    {
+      cut.border += cut.along > 0.0 ? 1.0 : -1.0;
+      cut.next = (cut.border + cut.offset - cut.begin) / cut.along;
+    }
+  }
+  stretch.to = std::max(stretch.from, stretch.to);
+  this->At = stretch.to;
+  return true;
+}
+
+}

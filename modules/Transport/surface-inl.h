@@ -1,0 +1,58 @@
+// Gradients as the kernels use them: for gradient opacity and for shading. Included once for each
+// SIMD target.
+#if defined(BRUME_SURFACE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BRUME_SURFACE_INL_H
+#undef BRUME_SURFACE_INL_H
+#else
+#define BRUME_SURFACE_INL_H
+#endif
+
+#include "Transport/march_task.h"
+#include "Transport/rays-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace brume
+{
+namespace HWY_NAMESPACE
+{
+
+#include "Transport/shading-inl.h"
+
+/// The magnitude of an index-space gradient, as a place in the tables that ask for it.
+HWY_INLINE Real gradient_magnitude(const VolumeTask& volume, const Vec3<Real>& gradient)
+{
+  const Vec3<Real> scaled = gradient * broadcast3<Real>(volume.gradient_scale);
+  return hn::Sqrt(dot(scaled, scaled));
+}
+
+/// The light that matter of a colour sends toward the viewer at a place of a line.
+HWY_INLINE Vec3<Real> shaded(const ShadeModel& model,
+  const Line& line,
+  Real position,
+  const Vec3<Real>& gradient,
+  const Vec3<Real>& colour)
+{
+  // Between values near the ends of float's range the differences overflow: no direction then.
+  Vec3<Real> slope = multiply(model.world_from_gradient, 3, gradient);
+  const Mask finite = hn::IsFinite(dot(slope, slope));
+  slope = { hn::IfThenElseZero(finite, slope.x),
+    hn::IfThenElseZero(finite, slope.y),
+    hn::IfThenElseZero(finite, slope.z) };
+  Vec3<Real> along = multiply(model.world_from_index, 4, line.delta);
+  along = along * rsqrt_or_zero(dot(along, along));
+  Vec3<Real> world = line.delta;
+  if (model.needs_place)
+  {
+    world = multiply(model.world_from_index, 4, line.at(position));
+    world.x = world.x + real(model.world_from_index[3]);
+    world.y = world.y + real(model.world_from_index[7]);
+    world.z = world.z + real(model.world_from_index[11]);
+  }
+  return shade<Real>(model, slope, -along, world, colour);
+}
+
+}
+}
+HWY_AFTER_NAMESPACE();
+
+#endif
