@@ -218,7 +218,6 @@ void add_beside_row(Scenes& scenes,
         "ball");
     scene->volume().volume->GetProperty()->ShadeOn();
     const double voxels = double(n) * n * n * sizeof(T);
-    const double picture = 8.0 * sizeof(float) * scene->volume().width() * scene->volume().height();
     // One picture before, elsewhere, so that what the threads keep for themselves is there already.
     Subject(*scene, 0.5, scenes.options().threads).render();
     Subject subject(*scene, 0.5, scenes.options().threads);
@@ -230,10 +229,8 @@ void add_beside_row(Scenes& scenes,
     char text[240];
     std::snprintf(text,
       sizeof(text),
-      "most at any time %.3g MB, of that %.3g MB a second film of the picture while it is cleared; "
-      "kept between pictures %.3g MB; the voxels %.3g MB",
+      "most at any time %.3g MB, kept between pictures %.3g MB, the voxels %.3g MB",
       peak * 1e-6,
-      std::min(peak, picture) * 1e-6,
       kept * 1e-6,
       voxels * 1e-6);
     self.remark(text);
