@@ -50,8 +50,7 @@ VoxelType voxel_type(int vtkType, bool& converts)
 
 }
 
-std::string GridFromVTK::Update(
-  vtkVolumeMapper* mapper, vtkVolumeProperty* property, int threads)
+std::string GridFromVTK::Update(vtkVolumeMapper* mapper, vtkVolumeProperty* property, int threads)
 {
   auto* image = vtkImageData::SafeDownCast(mapper->GetDataSetInput());
   if (!image)
@@ -59,8 +58,12 @@ std::string GridFromVTK::Update(
     return "there is no image data to draw: connect a vtkImageData to the mapper";
   }
   int cellFlag = 0;
-  vtkDataArray* scalars = vtkAbstractMapper::GetScalars(image, mapper->GetScalarMode(),
-    mapper->GetArrayAccessMode(), mapper->GetArrayId(), mapper->GetArrayName(), cellFlag);
+  vtkDataArray* scalars = vtkAbstractMapper::GetScalars(image,
+    mapper->GetScalarMode(),
+    mapper->GetArrayAccessMode(),
+    mapper->GetArrayId(),
+    mapper->GetArrayName(),
+    cellFlag);
   if (!scalars || scalars->GetNumberOfTuples() == 0)
   {
     return "the input has no scalars: name an array with SelectScalarArray and SetScalarMode";
@@ -73,14 +76,14 @@ std::string GridFromVTK::Update(
     if (components != 2 && (components != 4 || scalars->GetDataType() != VTK_UNSIGNED_CHAR))
     {
       return "dependent scalars of " + std::to_string(components) +
-        " components are not drawn: take 2 of any type, 4 of unsigned char, or "
-        "IndependentComponentsOn";
+             " components are not drawn: take 2 of any type, 4 of unsigned char, or "
+             "IndependentComponentsOn";
     }
   }
   if (components > VTK_MAX_VRCOMP)
   {
     return "scalars of " + std::to_string(components) +
-      " components are not drawn: take at most 4 (vtkImageExtractComponents)";
+           " components are not drawn: take at most 4 (vtkImageExtractComponents)";
   }
 
   int extent[6];
@@ -100,7 +103,7 @@ std::string GridFromVTK::Update(
   if (voxels != scalars->GetNumberOfTuples())
   {
     return "the scalars are " + std::to_string(scalars->GetNumberOfTuples()) + " values for " +
-      std::to_string(voxels) + " voxels: give one to each";
+           std::to_string(voxels) + " voxels: give one to each";
   }
   std::string wrong = this->UpdatePlace(image, extent, cells); // cheap, so always made anew
   if (!wrong.empty())
@@ -109,8 +112,13 @@ std::string GridFromVTK::Update(
   }
 
   this->TheGrid.linear = property->GetInterpolationType() != VTK_NEAREST_INTERPOLATION;
-  const DataKey key{ scalars, static_cast<unsigned long>(scalars->GetMTime()),
-    static_cast<unsigned long>(image->GetMTime()), dims[0], dims[1], dims[2], cells,
+  const DataKey key{ scalars,
+    static_cast<unsigned long>(scalars->GetMTime()),
+    static_cast<unsigned long>(image->GetMTime()),
+    dims[0],
+    dims[1],
+    dims[2],
+    cells,
     static_cast<int>(meaning) };
   if (key == this->LastData)
   {

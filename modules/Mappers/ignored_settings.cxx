@@ -22,8 +22,7 @@ std::vector<std::string> ignored_settings(
   vtkVolumeProperty* property = volume->GetProperty();
   const bool dependent = components > 1 && !property->GetIndependentComponents();
   ignored(property->GetUseClippedVoxelIntensity() != 0, "UseClippedVoxelIntensity");
-  const bool two_dimensional =
-    property->GetTransferFunctionMode() == vtkVolumeProperty::TF_2D;
+  const bool two_dimensional = property->GetTransferFunctionMode() == vtkVolumeProperty::TF_2D;
   ignored(two_dimensional && dependent, "TransferFunctionMode TF_2D of dependent components");
   if (mask.image && mask.label_map)
   {

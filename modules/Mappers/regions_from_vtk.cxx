@@ -72,7 +72,7 @@ Cropping cropping_from_vtk(vtkVolumeMapper* mapper, const GridFromVTK& grid)
     for (int side = 0; side < 2; ++side)
     {
       at[side] = sign * (planes[2 * data + side] - grid.Origin[data]) / grid.Spacing[image] -
-        grid.First[image];
+                 grid.First[image];
     }
     cropping.lower[image] = std::min(at[0], at[1]);
     cropping.upper[image] = std::max(at[0], at[1]);

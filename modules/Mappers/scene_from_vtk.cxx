@@ -47,11 +47,12 @@ BlendMode blend_mode_from_vtk(int mode)
       return BlendMode::Composite;
   }
 }
-
 }
 
-std::string SceneFromVTK::Update(vtkVolumeMapper* mapper, vtkVolume* volume,
-  const MaskSettings& mask, const ViewFromVTK& view)
+std::string SceneFromVTK::Update(vtkVolumeMapper* mapper,
+  vtkVolume* volume,
+  const MaskSettings& mask,
+  const ViewFromVTK& view)
 {
   // Volumes are kept by component; surfaces want the heaviest first.
   std::sort(this->TheScene.volumes.begin(), this->TheScene.volumes.end(),
@@ -148,9 +149,12 @@ std::string SceneFromVTK::UpdateMedia(vtkVolumeProperty* property, const MaskSet
       volumes[i].data_revision = next_revision();
     }
   }
-  const MediumKey key{ property, static_cast<unsigned long>(property->GetMTime()),
-    mask.image ? label_functions_time(property) : 0ul, this->Source.GetRevision(),
-    mask.label_map, mask.image ? mask.blend_factor : 1.0 };
+  const MediumKey key{ property,
+    static_cast<unsigned long>(property->GetMTime()),
+    mask.image ? label_functions_time(property) : 0ul,
+    this->Source.GetRevision(),
+    mask.label_map,
+    mask.image ? mask.blend_factor : 1.0 };
   if (!voxels && key == this->LastMedium)
   {
     return {};
@@ -181,9 +185,9 @@ bool SceneFromVTK::DrawsLabels(vtkVolumeProperty* property, const MaskSettings& 
   // Labels have one set of 1D functions: none for each of several independent components, and none
   // beside a 2D function.
   return this->Labels.GetLabels() && mask.label_map && mask.blend_factor > 0.0 &&
-    this->Source.GetNumberOfVolumes() == 1 &&
-    (property->GetTransferFunctionMode() == vtkVolumeProperty::TF_1D ||
-      this->Source.GetMeaning() != GridFromVTK::Meaning::Independent);
+         this->Source.GetNumberOfVolumes() == 1 &&
+         (property->GetTransferFunctionMode() == vtkVolumeProperty::TF_1D ||
+           this->Source.GetMeaning() != GridFromVTK::Meaning::Independent);
 }
 
 void SceneFromVTK::UpdateLabels(vtkVolumeProperty* property, const MaskSettings& mask)

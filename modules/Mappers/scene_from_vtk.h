@@ -46,7 +46,9 @@ class SceneFromVTK
 {
 public:
   /// Brings the scene up to date. Returns an empty string, or what is wrong and what to do.
-  std::string Update(vtkVolumeMapper* mapper, vtkVolume* volume, const MaskSettings& mask,
+  std::string Update(vtkVolumeMapper* mapper,
+    vtkVolume* volume,
+    const MaskSettings& mask,
     const ViewFromVTK& view);
 
   Scene& GetScene() { return this->TheScene; }
@@ -60,8 +62,8 @@ private:
   GridFromVTK Source;
   MaskFromVTK Labels;
 
-  using MediumKey = std::tuple<vtkVolumeProperty*, unsigned long, unsigned long, std::uint64_t,
-    bool, double>;
+  using MediumKey =
+    std::tuple<vtkVolumeProperty*, unsigned long, unsigned long, std::uint64_t, bool, double>;
   MediumKey LastMedium{ nullptr, 0, 0, 0, false, 0.0 };
   std::uint64_t LastVoxels = 0;
 };

@@ -44,9 +44,14 @@ FieldFunctions field_int8(const FieldView& view);
 FieldFunctions field_uint16(const FieldView& view);
 FieldFunctions field_int16(const FieldView& view);
 FieldFunctions field_float32(const FieldView& view);
+FieldFunctions field_sparse(const FieldView& view); ///< of any type
 
 HWY_INLINE FieldFunctions field_functions(const FieldView& view)
 {
+  if (view.table)
+  {
+    return field_sparse(view);
+  }
   switch (view.type)
   {
     case VoxelType::UInt8:
@@ -59,8 +64,37 @@ HWY_INLINE FieldFunctions field_functions(const FieldView& view)
       return field_int16(view);
     case VoxelType::Float32:
       return field_float32(view);
+    case VoxelType::Float16: // refused by Grid::validate
+      break;
   }
   return {};
+}
+
+/// The eight voxels around a place, as one cell and the place in it.
+struct Cell
+{
+  Int index[3];
+  Real fraction[3];
+};
+
+/// The cell that holds the place, or the one nearest to it. Trilinear interpolation in it also gives
+/// the nearest voxel: the fractions are 0 or 1 then.
+HWY_INLINE Cell locate_cell(const FieldView& view, const Vec3<Real>& place)
+{
+  const Real* coordinate[3] = { &place.x, &place.y, &place.z };
+  Cell cell;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    Real p =
+      clamp(*coordinate[axis], hn::Zero(float_tag), real(static_cast<float>(view.last[axis])));
+    if (!view.linear)
+    {
+      p = hn::Floor(p + real(0.5f));
+    }
+    cell.index[axis] = hn::Min(hn::ConvertTo(int_tag, p), integer(view.last_cell[axis]));
+    cell.fraction[axis] = p - hn::ConvertTo(float_tag, cell.index[axis]);
+  }
+  return cell;
 }
 
 /// A component of type T. Where the next voxel along x lies in the same 32 bits, SecondBit is where
@@ -84,49 +118,23 @@ public:
     const Field field(view);
     for (int i = 0; i < count; ++i)
     {
-      values[i] = field.value(field.locate(line.at(positions[i])));
+      values[i] = field.value(locate_cell(view, line.at(positions[i])));
     }
   }
 
   static void gradient(const FieldView& view, const Vec3<Real>& place, Vec3<Real>& gradient)
   {
     const Field field(view);
-    gradient = field.gradient(field.locate(place));
+    gradient = field.gradient(locate_cell(view, place));
   }
 
 private:
-  /// The eight voxels around a place, as one cell and the place in it.
-  struct Cell
-  {
-    Int index[3];
-    Real fraction[3];
-  };
-
-  HWY_INLINE Cell locate(const Vec3<Real>& place) const
-  {
-    const Real* coordinate[3] = { &place.x, &place.y, &place.z };
-    Cell cell;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      Real p =
-        clamp(*coordinate[axis], hn::Zero(float_tag), real(static_cast<float>(View.last[axis])));
-      if (!View.linear)
-      {
-        p = hn::Floor(p + real(0.5f));
-      }
-      cell.index[axis] = hn::Min(hn::ConvertTo(int_tag, p), integer(View.last_cell[axis]));
-      cell.fraction[axis] = p - hn::ConvertTo(float_tag, cell.index[axis]);
-    }
-    return cell;
-  }
-
   /// Two neighbours along x.
   struct Pair
   {
     Real first, second;
   };
 
-  /// Trilinear also serves the nearest voxel: its fractions are 0 or 1.
   HWY_INLINE Real value(const Cell& cell) const
   {
     Pair rows[4];

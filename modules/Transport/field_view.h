@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Transport/grid.h"
+#include "Transport/sparse_table.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -9,9 +10,11 @@
 namespace brume
 {
 
-/// One component of a dense grid.
+/// One component of a dense grid, or a sparse grid.
 struct FieldView
 {
+  /// Of a sparse grid: `base` is its pool then, and strides, rows and the last word mean nothing.
+  const SparseTable* table = nullptr;
   const std::uint8_t* base = nullptr; ///< the component of voxel (0, 0, 0)
   VoxelType type = VoxelType::UInt8;
   std::size_t stride[3] = { 0, 0, 0 }; ///< bytes from a voxel to the next along x, y, z
@@ -22,7 +25,7 @@ struct FieldView
   int last_cell[3] = { 0, 0, 0 }; ///< the last voxel that begins a cell
   /// Offset from `base` of the last 4 bytes of the voxels: kernels read whole words.
   std::size_t last_word = 0;
-  bool far = false;        ///< offsets do not fit the 32 bits of a gather
+  bool far = false;        ///< offsets (of a sparse grid: indices) do not fit a gather's 32 bits
   bool linear = true;      ///< trilinear, else the nearest voxel
   bool non_finite = false; ///< NaN or infinities are there, and read as `empty_value`
   float empty_value = 0.0f;

@@ -76,7 +76,8 @@ public:
           }
           return this->voxel(index[0], index[1], index[2], this->TheGrid.component);
         };
-        // The differences come first, so that the gradient of a constant is 0, not a rounding error.
+        // The differences come first, so that the gradient of a constant is 0, not a rounding
+        // error.
         sum[axis] += weight * 0.5 * (neighbour(1) - neighbour(-1));
       }
     }
@@ -118,10 +119,10 @@ private:
     }
     else
     {
-    const std::size_t index =
-      ((static_cast<std::size_t>(k) * grid.dims[1] + j) * grid.dims[0] + i) * grid.components +
-      component;
-    return this->finite(static_cast<double>(this->Voxels[index]));
+      const std::size_t index =
+        ((static_cast<std::size_t>(k) * grid.dims[1] + j) * grid.dims[0] + i) * grid.components +
+        component;
+      return this->finite(static_cast<double>(this->Voxels[index]));
     }
   }
 
@@ -152,6 +153,8 @@ std::unique_ptr<ReferenceGrid> ReferenceGrid::make(const Grid& grid, double empt
       return std::make_unique<TypedGrid<std::int16_t>>(grid, empty_value);
     case VoxelType::Float32:
       return std::make_unique<TypedGrid<float>>(grid, empty_value);
+    case VoxelType::Float16: // refused by Grid::validate
+      break;
   }
   return nullptr;
 }

@@ -1,6 +1,6 @@
 // The modes of the stock mappers: the same scene drawn by them and by Brume, live. Errors are in
-// levels of an 8-bit screen (1/255); each bound is about twice what was measured, and what is left has
-// the causes that docs/user/drop-in.md lists: above all where samples lie, and VTK's tables.
+// levels of an 8-bit screen (1/255); each bound is about twice what was measured, and what is left
+// has the causes that docs/user/drop-in.md lists: above all where samples lie, and VTK's tables.
 #include "../support/stock_pictures.h"
 
 #include "vtkFloatArray.h"
@@ -15,7 +15,8 @@ using vtk_scenes::image;
 namespace
 {
 
-/// Bounds of the mean and of the 99.9th percentile, in levels; no test against a mapper that has none.
+/// Bounds of the mean and of the 99.9th percentile, in levels; no test against a mapper that has
+/// none.
 struct Bounds
 {
   double mean = 0.0;
@@ -55,9 +56,10 @@ Scene of(const char* name, int type = VTK_UNSIGNED_CHAR)
   return scene;
 }
 
-// Cropping and clipping. The GPU mapper's cropping planes are up to half a voxel off, since it takes
-// them to the texture of voxels as though these were cells; its rays begin a whole step after a
-// clipping plane. A surface cut through dense matter shows both. ---------------------------------
+// Cropping and clipping. The GPU mapper's cropping planes are up to half a voxel off, since it
+// takes them to the texture of voxels as though these were cells; its rays begin a whole step after
+// a clipping plane. A surface cut through dense matter shows both.
+// ---------------------------------
 
 TEST(Modes, CroppingToABox)
 {
@@ -114,7 +116,11 @@ TEST(Modes, ClippingPlanesOfAPropThatWasMoved)
 /// α² / Σα and Brume adds extinctions.
 vtkSmartPointer<vtkImageData> two_balls(int type)
 {
-  return image(32, 29, 34, type,
+  return image(
+    32,
+    29,
+    34,
+    type,
     [](int i, int j, int k, int c)
     {
       const double x = i - (c == 0 ? 8.0 : 23.0);
@@ -161,7 +167,11 @@ void dependent(vtkVolume* volume)
 TEST(Modes, TwoDependentComponents)
 {
   Scene scene = of("dependent-two");
-  scene.image = image(32, 29, 34, VTK_UNSIGNED_SHORT,
+  scene.image = image(
+    32,
+    29,
+    34,
+    VTK_UNSIGNED_SHORT,
     [](int i, int j, int k, int c)
     {
       return c == 0 ? 6.0 * j
@@ -175,11 +185,17 @@ TEST(Modes, TwoDependentComponents)
 TEST(Modes, FourDependentComponents)
 {
   Scene scene = of("dependent-four");
-  scene.image = image(32, 29, 34, VTK_UNSIGNED_CHAR,
+  scene.image = image(
+    32,
+    29,
+    34,
+    VTK_UNSIGNED_CHAR,
     [](int i, int j, int k, int c)
     {
       // All from 0 to 255: the GPU mapper confuses that with the range that a component has.
-      const double v[4] = { 255.0 * i / 31, 255.0 * j / 28, 255.0 * k / 33,
+      const double v[4] = { 255.0 * i / 31,
+        255.0 * j / 28,
+        255.0 * k / 33,
         1.28 * vtk_scenes::ball(2.0 * i / 31 - 1, 2.0 * j / 28 - 1, 2.0 * k / 33 - 1) };
       return v[c];
     },
@@ -226,7 +242,10 @@ TEST(Modes, A2DTransferFunction)
 
 vtkSmartPointer<vtkImageData> stripes(int labels)
 {
-  return image(32, 29, 34, VTK_UNSIGNED_CHAR,
+  return image(32,
+    29,
+    34,
+    VTK_UNSIGNED_CHAR,
     [labels](int i, int j, int, int) { return (i / 6 + j / 7) % labels; });
 }
 

@@ -111,8 +111,8 @@ TEST(Together, EachVolumeKeepsItsMatrixAndItsLattice)
   {
     if (left.transmittance[0][i] > 0.999999f || right.transmittance[0][i] > 0.999999f)
     {
-      most = std::max<double>(most,
-        std::abs(both.radiance[0][i] - left.radiance[0][i] - right.radiance[0][i]));
+      most = std::max<double>(
+        most, std::abs(both.radiance[0][i] - left.radiance[0][i] - right.radiance[0][i]));
     }
   }
   EXPECT_LE(most, 2e-4);
@@ -178,7 +178,11 @@ TEST(Together, RefusesWhatIsNotDrawnAsOne)
 // Components are mixed as VTK's mappers do: two equal ones are as opaque as one, and twice as bright.
 TEST(Together, DISABLED_ComponentsAreMixedAsVTKMixesThem)
 {
-  const auto two = image(32, 29, 34, VTK_SHORT,
+  const auto two = image(
+    32,
+    29,
+    34,
+    VTK_SHORT,
     [](int i, int j, int k, int)
     { return ball(2.0 * i / 31 - 1, 2.0 * j / 28 - 1, 2.0 * k / 33 - 1); },
     2);
