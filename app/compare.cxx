@@ -155,6 +155,7 @@ SceneDescription describe(const VolumeScene& scene, double step)
     { "opacity unit distance", length(scene.opacity_unit_distance, unit), all },
     { "sample distance", length(step, unit) + " (" + text(d.step_voxels) + " voxel)", all },
     { "interpolation", d.interpolation, all },
+    { "blend mode", scene.options.modes.blend_mode, all },
     { "shading", d.shading ? "on" : "off", all },
     { "camera", d.camera.parallel ? "parallel" : "perspective", all },
     { "resolution", std::to_string(d.width) + " x " + std::to_string(d.height), all },
@@ -225,6 +226,7 @@ void write_outputs(const OutputFolder& folder, const Comparison& comparison,
 void run(const Options& options)
 {
   const std::vector<MapperName> wanted = wanted_mappers(options);
+  check(options.scene.modes);
   if (!options.scene.preset.empty())
   {
     find_preset(options.scene.preset);
@@ -245,22 +247,24 @@ void run(const Options& options)
   for (const MapperName& mapper : wanted)
   {
     InterruptionWatch::check("compare");
-    if (mapper.kind != MapperKind::RayMarch)
+    std::string cannot = not_drawn_by(options.scene.modes, mapper.kind);
+    if (cannot.empty() && mapper.kind != MapperKind::RayMarch)
     {
       if (!display)
       {
         display.emplace();
       }
-      if (!display->available())
-      {
-        ComparisonEntry skipped;
-        skipped.mapper = mapper.name;
-        skipped.title = mapper.title;
-        skipped.class_name = mapper.class_name;
-        skipped.skipped = display->reason();
-        comparison.entries.push_back(skipped);
-        continue;
-      }
+      cannot = display->available() ? std::string() : display->reason();
+    }
+    if (!cannot.empty())
+    {
+      ComparisonEntry skipped;
+      skipped.mapper = mapper.name;
+      skipped.title = mapper.title;
+      skipped.class_name = mapper.class_name;
+      skipped.skipped = cannot;
+      comparison.entries.push_back(skipped);
+      continue;
     }
     if (options.scene.verbose)
     {

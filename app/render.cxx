@@ -59,6 +59,9 @@ Drawn draw_ray_march(const VolumeScene& scene)
   mapper->SetInputData(scene.input.image);
   mapper->SetTolerance(scene.options.tolerance);
   mapper->SetNumberOfThreads(scene.options.threads);
+  apply(scene.options.modes, mapper, scene.volume->GetProperty());
+  mapper->SetMaskInput(scene.mask);
+  mapper->SetMaskTypeToBinary();
   if (scene.options.sample_distance)
   {
     mapper->AutoAdjustSampleDistancesOff();
@@ -170,6 +173,12 @@ void run(const Options& options)
     throw Failure(error.what(), BadCall);
   }
   const MapperName& mapper = find_mapper(options.mapper, "--mapper");
+  check(options.scene.modes);
+  const std::string cannot = not_drawn_by(options.scene.modes, mapper.kind);
+  if (!cannot.empty())
+  {
+    throw Failure("--mapper " + options.mapper, cannot, "take --mapper raymarch", BadCall);
+  }
   if (!options.scene.preset.empty())
   {
     find_preset(options.scene.preset);
