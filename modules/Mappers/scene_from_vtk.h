@@ -45,14 +45,16 @@ struct MaskSettings
 class SceneFromVTK
 {
 public:
-  /// Brings the scene up to date. Returns an empty string, or what is wrong and what to do.
+  /// Brings the scene up to date. `extinction` > 0: values are a density, see Density; 0: they are
+  /// classified. Returns an empty string, or what is wrong and what to do.
   std::string Update(vtkVolumeMapper* mapper, vtkVolume* volume, const MaskSettings& mask,
-    const ViewFromVTK& view);
+    double extinction, const ViewFromVTK& view);
 
   Scene& GetScene() { return this->TheScene; }
 
 private:
-  std::string UpdateMedia(vtkVolumeProperty* property, const MaskSettings& mask);
+  std::string UpdateMedia(
+    vtkVolumeProperty* property, const MaskSettings& mask, double extinction);
   bool DrawsLabels(vtkVolumeProperty* property, const MaskSettings& mask) const;
   void UpdateLabels(vtkVolumeProperty* property, const MaskSettings& mask);
 
@@ -61,8 +63,8 @@ private:
   MaskFromVTK Labels;
 
   using MediumKey = std::tuple<vtkVolumeProperty*, unsigned long, unsigned long, std::uint64_t,
-    bool, double>;
-  MediumKey LastMedium{ nullptr, 0, 0, 0, false, 0.0 };
+    bool, double, double>;
+  MediumKey LastMedium{ nullptr, 0, 0, 0, false, 0.0, 0.0 };
   std::uint64_t LastVoxels = 0;
 };
 
