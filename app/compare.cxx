@@ -21,6 +21,10 @@
 #include "atomic_file.h"
 #include "film_io.h"
 
+#include "Transport/sparse_voxels.h"
+
+#include "vtkBrumeSparseVolume.h"
+
 #include "vtkCamera.h"
 #include "vtkImageData.h"
 #include "vtkVolume.h"
@@ -130,8 +134,19 @@ SceneDescription describe(const VolumeScene& scene, double step)
   const std::string& unit = scene.input.length_unit;
   vtkVolumeProperty* property = scene.volume->GetProperty();
   d.input = scene.input.name;
-  scene.input.image->GetDimensions(d.dimensions.data());
-  scene.input.image->GetSpacing(d.spacing.data());
+  if (vtkBrumeSparseVolume* sparse = scene.input.sparse)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      d.dimensions[axis] = sparse->GetVoxels()->dims()[axis] - sparse->GetVoxels()->first()[axis];
+    }
+    sparse->GetSpacing(d.spacing.data());
+  }
+  else
+  {
+    scene.input.image->GetDimensions(d.dimensions.data());
+    scene.input.image->GetSpacing(d.spacing.data());
+  }
   d.unit = unit;
   d.preset = scene.preset->name;
   d.width = scene.width();
@@ -225,6 +240,11 @@ void write_outputs(const OutputFolder& folder, const Comparison& comparison,
 void run(const Options& options)
 {
   const std::vector<MapperName> wanted = wanted_mappers(options);
+  if (options.scene.extinction > 0.0)
+  {
+    throw Failure("--extinction", "VTK's own mappers do not draw densities",
+      "leave it out, or use brume render", BadCall);
+  }
   if (!options.scene.preset.empty())
   {
     find_preset(options.scene.preset);
@@ -247,17 +267,26 @@ void run(const Options& options)
     InterruptionWatch::check("compare");
     if (mapper.kind != MapperKind::RayMarch)
     {
-      if (!display)
+      std::string reason;
+      if (scene.input.sparse)
+      {
+        reason = "it would need the volume dense";
+      }
+      else if (!display)
       {
         display.emplace();
       }
-      if (!display->available())
+      if (display && !display->available())
+      {
+        reason = display->reason();
+      }
+      if (!reason.empty())
       {
         ComparisonEntry skipped;
         skipped.mapper = mapper.name;
         skipped.title = mapper.title;
         skipped.class_name = mapper.class_name;
-        skipped.skipped = display->reason();
+        skipped.skipped = reason;
         comparison.entries.push_back(skipped);
         continue;
       }

@@ -21,7 +21,7 @@ struct VolumeScene
 {
   SceneOptions options;
   Input input;
-  const Preset* preset = nullptr;
+  const Preset* preset = nullptr; ///< null for a density (--extinction)
   std::string preset_reason; ///< why this preset; empty when the user named it
   vtkSmartPointer<vtkVolume> volume; ///< with its property, without a mapper
   vtkSmartPointer<vtkCamera> camera; ///< clipping range fits the volume
