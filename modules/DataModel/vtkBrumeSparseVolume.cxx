@@ -44,8 +44,9 @@ void vtkBrumeSparseVolume::SetIndexToWorld(vtkMatrix4x4* matrix)
   }
   if (!good || matrix->Determinant() == 0.0)
   {
-    vtkErrorMacro("the matrix from index to world does not place voxels in space: give an affine one "
-                  "whose determinant is not 0");
+    vtkErrorMacro(
+      "the matrix from index to world does not place voxels in space: give an affine one "
+      "whose determinant is not 0");
     return;
   }
   if (!std::equal(m, m + 16, this->IndexToWorld->GetData()))
@@ -90,7 +91,8 @@ void vtkBrumeSparseVolume::GetBounds(double bounds[6])
     double place[4] = { 0.0, 0.0, 0.0, 1.0 };
     for (int axis = 0; axis < 3; ++axis)
     {
-      place[axis] = this->Voxels->origin()[axis] +
+      place[axis] =
+        this->Voxels->origin()[axis] +
         (corner >> axis & 1 ? this->Voxels->dims()[axis] - 1 : this->Voxels->first()[axis]);
     }
     this->IndexToWorld->MultiplyPoint(place, place);
@@ -120,7 +122,7 @@ unsigned long vtkBrumeSparseVolume::GetActualMemorySize()
 {
   const std::size_t bytes = this->Voxels ? this->Voxels->memory_bytes() : 0;
   return this->Superclass::GetActualMemorySize() +
-    static_cast<unsigned long>((bytes + 1023) / 1024);
+         static_cast<unsigned long>((bytes + 1023) / 1024);
 }
 
 void vtkBrumeSparseVolume::Initialize()
@@ -163,8 +165,8 @@ void vtkBrumeSparseVolume::DeepCopy(vtkDataObject* source)
 vtkBrumeSparseVolume* vtkBrumeSparseVolume::GetData(vtkInformation* information)
 {
   return information
-    ? vtkBrumeSparseVolume::SafeDownCast(information->Get(vtkDataObject::DATA_OBJECT()))
-    : nullptr;
+           ? vtkBrumeSparseVolume::SafeDownCast(information->Get(vtkDataObject::DATA_OBJECT()))
+           : nullptr;
 }
 
 vtkBrumeSparseVolume* vtkBrumeSparseVolume::GetData(vtkInformationVector* vector, int port)
@@ -190,8 +192,7 @@ void vtkBrumeSparseVolume::PrintSelf(ostream& os, vtkIndent indent)
      << " tiles in a box of";
   for (int axis = 0; axis < 3; ++axis)
   {
-    os << (axis == 0 ? " " : " x ")
-       << this->Voxels->dims()[axis] - this->Voxels->first()[axis];
+    os << (axis == 0 ? " " : " x ") << this->Voxels->dims()[axis] - this->Voxels->first()[axis];
   }
   os << " voxels, " << this->Voxels->memory_bytes() << " bytes\n";
 }

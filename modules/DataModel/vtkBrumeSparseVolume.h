@@ -6,8 +6,8 @@
  * (brume::SparseVoxels), a matrix that places them in the world, a name, and a few figures. It is
  * never made dense.
  *
- * It is a vtkDataObject, not a vtkDataSet: it has no points and cells to be asked for one by one, and
- * filters of VTK that expect them refuse it with VTK's own words rather than run for days.
+ * It is a vtkDataObject, not a vtkDataSet: it has no points and cells to be asked for one by one,
+ * and filters of VTK that expect them refuse it with VTK's own words rather than run for days.
  *
  * Copies, shallow or deep, share the voxels: they cannot be changed once they are made.
  */
@@ -43,7 +43,10 @@ public:
    * The voxels. Default: none. Setting them also sets ValueRange to that of all finite ones.
    */
   void SetVoxels(std::shared_ptr<const brume::SparseVoxels> voxels);
-  const std::shared_ptr<const brume::SparseVoxels>& GetVoxels() const { return this->Voxels; }
+  const std::shared_ptr<const brume::SparseVoxels>& GetVoxels() const
+  {
+    return this->Voxels;
+  }
   ///@}
 #endif
 
@@ -62,7 +65,10 @@ public:
    * What the values are called: "density". Default: empty.
    */
   void SetName(const std::string& name);
-  const std::string& GetName() const { return this->Name; }
+  const std::string& GetName() const
+  {
+    return this->Name;
+  }
   ///@}
 
   ///@{
@@ -74,7 +80,8 @@ public:
   ///@}
 
   /**
-   * The least and the largest finite value, the background among them; 0 and -1 where there is none.
+   * The least and the largest finite value, the background among them; 0 and -1 where there is
+   * none.
    */
   vtkGetVector2Macro(ValueRange, double);
 

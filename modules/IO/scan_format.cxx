@@ -72,8 +72,7 @@ bool is_text(const std::string& bytes)
   }
   if (begins(bytes, std::string(" BDV\0", 5)))
   {
-    fail(path, "is OpenVDB, which is not a dense volume",
-      "read it with vtkBrumeOpenVDBReader");
+    fail(path, "is OpenVDB, which is not a dense volume", "read it with vtkBrumeOpenVDBReader");
   }
   if (begins(bytes, "\x89PNG") || begins(bytes, "\xff\xd8\xff") || begins(bytes, "II*") ||
     begins(bytes, std::string("MM\0*", 4)))

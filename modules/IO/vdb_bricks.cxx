@@ -54,7 +54,8 @@ std::shared_ptr<const SparseVoxels> take(Tree& tree, bool half, const Progress& 
   std::vector<Leaf*> leaves;
   tree.getNodes(leaves);
   std::vector<std::uint8_t> empty(leaves.size(), 0);
-  tbb::parallel_for(std::size_t(0), leaves.size(),
+  tbb::parallel_for(std::size_t(0),
+    leaves.size(),
     [&](std::size_t i)
     {
       if (leaves[i]->isEmpty())
@@ -99,7 +100,8 @@ std::shared_ptr<const SparseVoxels> take(Tree& tree, bool half, const Progress& 
     const Value* values = leaf.buffer().data(); // read from the file here and now
     if (half)
     {
-      transpose(values, static_cast<std::uint16_t*>(voxels),
+      transpose(values,
+        static_cast<std::uint16_t*>(voxels),
         [](Value v) { return half_from_float(static_cast<float>(v)); });
     }
     else
@@ -110,25 +112,29 @@ std::shared_ptr<const SparseVoxels> take(Tree& tree, bool half, const Progress& 
     leaf.swap(nothing); // its memory goes with `nothing`
     const std::size_t count = ++done;
     if (count % 1024 == 0 && std::this_thread::get_id() == caller && progress &&
-      !progress(static_cast<double>(count) / static_cast<double>(leaves.size())))
+        !progress(static_cast<double>(count) / static_cast<double>(leaves.size())))
     {
       throw std::runtime_error("interrupted");
     }
   };
   return std::make_shared<SparseVoxels>(half ? VoxelType::Float16 : VoxelType::Float32,
-    static_cast<double>(background), topology, fill);
+    static_cast<double>(background),
+    topology,
+    fill);
 }
 
 }
 
-std::shared_ptr<const SparseVoxels> take_voxels(
-  openvdb::FloatTree& tree, bool half, const Progress& progress)
+std::shared_ptr<const SparseVoxels> take_voxels(openvdb::FloatTree& tree,
+  bool half,
+  const Progress& progress)
 {
   return take(tree, half, progress);
 }
 
-std::shared_ptr<const SparseVoxels> take_voxels(
-  openvdb::DoubleTree& tree, bool half, const Progress& progress)
+std::shared_ptr<const SparseVoxels> take_voxels(openvdb::DoubleTree& tree,
+  bool half,
+  const Progress& progress)
 {
   return take(tree, half, progress);
 }

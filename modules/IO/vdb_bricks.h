@@ -10,10 +10,12 @@ namespace brume::io
 
 /// Takes the voxels out of the tree, leaf by leaf: the tree's leaves are empty afterwards. Null for
 /// a tree that holds nothing but its background. `half`: store them in half precision.
-std::shared_ptr<const SparseVoxels> take_voxels(
-  openvdb::FloatTree& tree, bool half, const Progress& progress);
+std::shared_ptr<const SparseVoxels> take_voxels(openvdb::FloatTree& tree,
+  bool half,
+  const Progress& progress);
 /// Doubles are rounded to single precision.
-std::shared_ptr<const SparseVoxels> take_voxels(
-  openvdb::DoubleTree& tree, bool half, const Progress& progress);
+std::shared_ptr<const SparseVoxels> take_voxels(openvdb::DoubleTree& tree,
+  bool half,
+  const Progress& progress);
 
 }

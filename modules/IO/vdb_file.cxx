@@ -53,7 +53,8 @@ public:
 
 [[noreturn]] void fail_openvdb(const std::string& path, const std::exception& error)
 {
-  fail(path, "OpenVDB cannot read it (" + std::string(error.what()) + ")",
+  fail(path,
+    "OpenVDB cannot read it (" + std::string(error.what()) + ")",
     "it may be damaged: write or copy it again");
 }
 
@@ -91,7 +92,8 @@ std::string spoken_name(const openvdb::io::GridDescriptor& grid)
   return openvdb::io::GridDescriptor::nameAsString(grid.uniqueName());
 }
 
-/// The file, open, with its header checked. Delayed loading: leaves are read when they are asked for.
+/// The file, open, with its header checked. Delayed loading: leaves are read when they are asked
+/// for.
 std::unique_ptr<openvdb::io::File> open_file(const std::string& path)
 {
   openvdb::initialize();
@@ -157,7 +159,8 @@ std::vector<VdbGrid> list_vdb_grids(const std::string& path)
       {
         if (static_cast<std::uint64_t>(std::max<std::int64_t>(grid.getEndPos(), 0)) > length)
         {
-          fail(path, "the file is cut short: its grid '" + spoken_name(grid) + "' needs " +
+          fail(path,
+            "the file is cut short: its grid '" + spoken_name(grid) + "' needs " +
               std::to_string(grid.getEndPos()) + " bytes, and it has " + std::to_string(length),
             "copy or download it again");
         }
@@ -193,7 +196,8 @@ VdbVolume read_vdb_grid(const std::string& path, const VdbGrid& which, const Pro
       if (!which.refusal.empty())
       {
         const std::size_t colon = which.refusal.find(": ");
-        fail(path, "its grid '" + which.name + "' " + which.refusal.substr(0, colon),
+        fail(path,
+          "its grid '" + which.name + "' " + which.refusal.substr(0, colon),
           which.refusal.substr(colon + 2));
       }
       const auto file = open_file(path);
@@ -201,8 +205,7 @@ VdbVolume read_vdb_grid(const std::string& path, const VdbGrid& which, const Pro
       VdbVolume volume;
       volume.name = which.name;
       volume.active_voxels = grid->activeVoxelCount();
-      const openvdb::Mat4R matrix =
-        grid->constTransform().baseMap()->getAffineMap()->getMat4();
+      const openvdb::Mat4R matrix = grid->constTransform().baseMap()->getAffineMap()->getMat4();
       for (int row = 0; row < 4; ++row)
       {
         for (int column = 0; column < 4; ++column)
@@ -227,7 +230,8 @@ VdbVolume read_vdb_grid(const std::string& path, const VdbGrid& which, const Pro
       }
       catch (const std::invalid_argument& error)
       {
-        fail(path, "its grid '" + which.name + "' cannot be held: " + error.what(),
+        fail(path,
+          "its grid '" + which.name + "' cannot be held: " + error.what(),
           "take a part of it");
       }
       if (!volume.voxels)

@@ -1,5 +1,5 @@
-// OpenVDB files: what is in one, and a grid of it as sparse voxels. Private to this module; OpenVDB's
-// own headers stay in vdb_file.cxx and vdb_bricks.cxx.
+// OpenVDB files: what is in one, and a grid of it as sparse voxels. Private to this module;
+// OpenVDB's own headers stay in vdb_file.cxx and vdb_bricks.cxx.
 #pragma once
 
 #include "voxel_reader.h" // for Progress
@@ -21,9 +21,9 @@ namespace brume::io
 /// A grid of a file, without its voxels.
 struct VdbGrid
 {
-  std::string name;  ///< as the file has it; a second one of the same name is "name[1]"
-  std::string type;  ///< "float", "half" (a float grid stored as such), "double", "vec3s", …
-  std::string kind;  ///< "fog volume", "level set", "staggered", "unknown"
+  std::string name; ///< as the file has it; a second one of the same name is "name[1]"
+  std::string type; ///< "float", "half" (a float grid stored as such), "double", "vec3s", …
+  std::string kind; ///< "fog volume", "level set", "staggered", "unknown"
   /// Why it cannot be drawn and what to do, "is a level set: …"; empty where it can.
   std::string refusal;
 };
@@ -48,7 +48,6 @@ std::vector<VdbGrid> list_vdb_grids(const std::string& path);
 
 /// Reads one grid of list_vdb_grids(). Its voxels go from the file to their bricks at once, on all
 /// processors, and are never held twice. Throws as above; std::bad_alloc where memory runs out.
-VdbVolume read_vdb_grid(
-  const std::string& path, const VdbGrid& grid, const Progress& progress);
+VdbVolume read_vdb_grid(const std::string& path, const VdbGrid& grid, const Progress& progress);
 
 }

@@ -123,9 +123,8 @@ int vtkBrumeOpenVDBReader::GetNumberOfMessages() const
 
 const char* vtkBrumeOpenVDBReader::GetMessage(int index) const
 {
-  return index >= 0 && index < this->GetNumberOfMessages()
-    ? this->Internal->Messages[index].c_str()
-    : nullptr;
+  return index >= 0 && index < this->GetNumberOfMessages() ? this->Internal->Messages[index].c_str()
+                                                           : nullptr;
 }
 
 vtkBrumeSparseVolume* vtkBrumeOpenVDBReader::GetOutput()
@@ -139,8 +138,9 @@ int vtkBrumeOpenVDBReader::FillOutputPortInformation(int, vtkInformation* info)
   return 1;
 }
 
-int vtkBrumeOpenVDBReader::RequestDataObject(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+int vtkBrumeOpenVDBReader::RequestDataObject(vtkInformation*,
+  vtkInformationVector**,
+  vtkInformationVector* outputVector)
 {
   if (!vtkBrumeSparseVolume::GetData(outputVector))
   {
@@ -162,7 +162,7 @@ void vtkBrumeOpenVDBReader::Guard(const Work& work)
   catch (const std::bad_alloc&)
   {
     error = std::string(this->FileName) +
-      ": there is not memory enough for it: close other programs or take a part of it";
+            ": there is not memory enough for it: close other programs or take a part of it";
   }
   catch (const std::exception& caught)
   {
@@ -173,8 +173,9 @@ void vtkBrumeOpenVDBReader::Guard(const Work& work)
   vtkErrorMacro(<< error);
 }
 
-int vtkBrumeOpenVDBReader::RequestInformation(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector*)
+int vtkBrumeOpenVDBReader::RequestInformation(vtkInformation*,
+  vtkInformationVector**,
+  vtkInformationVector*)
 {
   Internals& self = *this->Internal;
   self = Internals();
@@ -193,8 +194,9 @@ int vtkBrumeOpenVDBReader::RequestInformation(
   return 1; // the output is empty then; a failure here would only repeat the error in other words
 }
 
-int vtkBrumeOpenVDBReader::RequestData(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+int vtkBrumeOpenVDBReader::RequestData(vtkInformation*,
+  vtkInformationVector**,
+  vtkInformationVector* outputVector)
 {
   Internals& self = *this->Internal;
   vtkBrumeSparseVolume* output = vtkBrumeSparseVolume::GetData(outputVector);
@@ -209,7 +211,8 @@ int vtkBrumeOpenVDBReader::RequestData(
     [&]
     {
       const int index = self.Choose(this->FileName, this->GridName ? this->GridName : "");
-      const io::VdbVolume volume = io::read_vdb_grid(this->FileName, self.Grids[index],
+      const io::VdbVolume volume = io::read_vdb_grid(this->FileName,
+        self.Grids[index],
         [this](double done)
         {
           this->UpdateProgress(done);
@@ -227,7 +230,8 @@ int vtkBrumeOpenVDBReader::RequestData(
         const std::size_t others = self.Grids.size() - 1;
         if (others > 0)
         {
-          self.Messages.push_back("of its grids, " + self.Names() + ", " + volume.name + " is taken");
+          self.Messages.push_back(
+            "of its grids, " + self.Names() + ", " + volume.name + " is taken");
         }
       }
       this->GridIndex = index;

@@ -2,18 +2,18 @@
  * @class vtkBrumeOpenVDBReader
  * @brief Reads a grid of an OpenVDB file as a sparse volume.
  *
- * The output is one vtkBrumeSparseVolume. Voxels and tiles go from the file straight into its bricks,
- * on all processors; the volume is never made dense. Floats, floats that were saved in half precision
- * (they stay so in memory) and doubles (rounded to floats) are read, under any affine transform.
- * Values of inactive voxels and tiles count as they do in OpenVDB: as values. Beyond the box around
- * what is stored the volume ends, whatever the background.
+ * The output is one vtkBrumeSparseVolume. Voxels and tiles go from the file straight into its
+ * bricks, on all processors; the volume is never made dense. Floats, floats that were saved in half
+ * precision (they stay so in memory) and doubles (rounded to floats) are read, under any affine
+ * transform. Values of inactive voxels and tiles count as they do in OpenVDB: as values. Beyond the
+ * box around what is stored the volume ends, whatever the background.
  *
  * Level sets, grids of other types and perspective (frustum) transforms are refused with a word on
  * what to do. When something is wrong the output is empty, ErrorEvent is invoked, and
  * GetErrorMessage() holds one line.
  *
- * Blocks of any of OpenVDB's compressions are decompressed as the voxels are read. A file must not be
- * changed while it is read.
+ * Blocks of any of OpenVDB's compressions are decompressed as the voxels are read. A file must not
+ * be changed while it is read.
  */
 #ifndef vtkBrumeOpenVDBReader_h
 #define vtkBrumeOpenVDBReader_h
@@ -42,8 +42,8 @@ public:
 
   ///@{
   /**
-   * The grid to read, by its name; "NAME[1]" is the second of a name. Default: none, which takes the
-   * first in the file that can be read.
+   * The grid to read, by its name; "NAME[1]" is the second of a name. Default: none, which takes
+   * the first in the file that can be read.
    */
   vtkSetStringMacro(GridName);
   vtkGetStringMacro(GridName);
@@ -51,9 +51,9 @@ public:
 
   ///@{
   /**
-   * What the file holds, known after UpdateInformation(): the names of its grids in their order, the
-   * type of their values ("float", "half", "vec3s", …), and what they are ("fog volume",
-   * "level set", "unknown"). Null for an index that there is not.
+   * What the file holds, known after UpdateInformation(): the names of its grids in their order,
+   * the type of their values ("float", "half", "vec3s", …), and what they are ("fog volume", "level
+   * set", "unknown"). Null for an index that there is not.
    */
   int GetNumberOfGrids() const;
   const char* GetNameOfGrid(int index) const;
@@ -90,12 +90,15 @@ protected:
   vtkBrumeOpenVDBReader();
   ~vtkBrumeOpenVDBReader() override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestDataObject(
-    vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector) override;
-  int RequestInformation(
-    vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector) override;
-  int RequestData(
-    vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector) override;
+  int RequestDataObject(vtkInformation*,
+    vtkInformationVector**,
+    vtkInformationVector* outputVector) override;
+  int RequestInformation(vtkInformation*,
+    vtkInformationVector**,
+    vtkInformationVector* outputVector) override;
+  int RequestData(vtkInformation*,
+    vtkInformationVector**,
+    vtkInformationVector* outputVector) override;
 
   char* FileName = nullptr;
   char* GridName = nullptr;

@@ -61,8 +61,11 @@ struct Span
 };
 
 /// The range of a table: of values, and of those that are coloured; `whole`: all of the data's.
-void set_range(Classification& c, const Functions& f, const double values[2],
-  const double coloured[2], bool whole)
+void set_range(Classification& c,
+  const Functions& f,
+  const double values[2],
+  const double coloured[2],
+  bool whole)
 {
   Span all;
   all.Add(values[0], values[1]);
@@ -132,8 +135,11 @@ void set_gradient_scale(Classification& c, const GridFromVTK& grid, double upper
   c.gradient_upper = std::max(upper, 1e-30);
 }
 
-void fill_gradient_opacity(Classification& c, const GridFromVTK& grid, const double range[2],
-  vtkPiecewiseFunction* function, int nodes)
+void fill_gradient_opacity(Classification& c,
+  const GridFromVTK& grid,
+  const double range[2],
+  vtkPiecewiseFunction* function,
+  int nodes)
 {
   // A central difference is at most half the range of values along each axis.
   const double steepest = 0.5 * (range[1] - range[0]) * std::sqrt(3.0);
@@ -173,14 +179,17 @@ vtkPiecewiseFunction* gradient_function_of(vtkVolumeProperty* property, int inde
 {
   // Asked through the 1D mode alone: in the other HasGradientOpacity always says yes.
   const bool has = property->GetTransferFunctionMode() == vtkVolumeProperty::TF_1D &&
-    !property->GetDisableGradientOpacity(index) && property->HasGradientOpacity(index);
+                   !property->GetDisableGradientOpacity(index) &&
+                   property->HasGradientOpacity(index);
   return has ? property->GetGradientOpacity(index) : nullptr;
 }
 
 /// A 2D function as VTK's GPU mapper reads it: the image is stretched over the range of values and
 /// over gradient magnitudes up to a quarter of that, its pixels at the middles of their cells.
-std::string fill_2d(
-  Classification& c, vtkVolumeProperty* property, const GridFromVTK& grid, int index)
+std::string fill_2d(Classification& c,
+  vtkVolumeProperty* property,
+  const GridFromVTK& grid,
+  int index)
 {
   vtkImageData* image = property->GetTransferFunction2D(index);
   vtkDataArray* colours = image ? image->GetPointData()->GetScalars() : nullptr;
@@ -190,10 +199,10 @@ std::string fill_2d(
     image->GetDimensions(dims);
   }
   if (!colours || colours->GetNumberOfComponents() != 4 || dims[0] < 1 || dims[1] < 1 ||
-    colours->GetNumberOfTuples() < static_cast<vtkIdType>(dims[0]) * dims[1])
+      colours->GetNumberOfTuples() < static_cast<vtkIdType>(dims[0]) * dims[1])
   {
     return "TransferFunctionMode is TF_2D and component " + std::to_string(index) +
-      " has no image of 4 components: set it with vtkVolumeProperty::SetTransferFunction2D";
+           " has no image of 4 components: set it with vtkVolumeProperty::SetTransferFunction2D";
   }
   const double* range = grid.GetRange(index);
   const double width = range[1] > range[0] ? range[1] - range[0] : 1.0;
@@ -217,9 +226,8 @@ std::string fill_2d(
       const vtkIdType x = std::min(node, dims[0] - 1);
       for (int channel = 0; channel < 4; ++channel)
       {
-        *out++ = 0.5 *
-          (colours->GetComponent(static_cast<vtkIdType>(a) * dims[0] + x, channel) +
-            colours->GetComponent(static_cast<vtkIdType>(b) * dims[0] + x, channel));
+        *out++ = 0.5 * (colours->GetComponent(static_cast<vtkIdType>(a) * dims[0] + x, channel) +
+                         colours->GetComponent(static_cast<vtkIdType>(b) * dims[0] + x, channel));
       }
     }
   }
@@ -228,8 +236,11 @@ std::string fill_2d(
 
 }
 
-std::string classification_from_vtk(
-  vtkVolumeProperty* property, const GridFromVTK& grid, int volume, bool whole, Classification& c)
+std::string classification_from_vtk(vtkVolumeProperty* property,
+  const GridFromVTK& grid,
+  int volume,
+  bool whole,
+  Classification& c)
 {
   c = Classification();
   c.unit_distance = property->GetScalarOpacityUnitDistance(volume);
@@ -240,7 +251,7 @@ std::string classification_from_vtk(
   }
   const Grid shape = grid.GetGrid(volume);
   if (property->GetTransferFunctionMode() == vtkVolumeProperty::TF_2D &&
-    shape.colour == VoxelColour::Value)
+      shape.colour == VoxelColour::Value)
   {
     return fill_2d(c, property, grid, volume);
   }
@@ -256,8 +267,11 @@ std::string classification_from_vtk(
   return {};
 }
 
-Classification label_classification_from_vtk(
-  vtkVolumeProperty* property, const GridFromVTK& grid, int label, double factor, int nodes)
+Classification label_classification_from_vtk(vtkVolumeProperty* property,
+  const GridFromVTK& grid,
+  int label,
+  double factor,
+  int nodes)
 {
   const Grid shape = grid.GetGrid(0);
   const Functions plain = functions_of(property, 0, shape.colour != VoxelColour::RGB);

@@ -54,8 +54,7 @@ VoxelType voxel_type(int vtkType, bool& converts)
 
 }
 
-std::string GridFromVTK::Update(
-  vtkVolumeMapper* mapper, vtkVolumeProperty* property, int threads)
+std::string GridFromVTK::Update(vtkVolumeMapper* mapper, vtkVolumeProperty* property, int threads)
 {
   this->TheGrid.linear = property->GetInterpolationType() != VTK_NEAREST_INTERPOLATION;
   vtkDataObject* input = mapper->GetDataObjectInput();
@@ -115,8 +114,12 @@ std::string GridFromVTK::UpdateImage(
   vtkImageData* image, vtkVolumeMapper* mapper, vtkVolumeProperty* property, int threads)
 {
   int cellFlag = 0;
-  vtkDataArray* scalars = vtkAbstractMapper::GetScalars(image, mapper->GetScalarMode(),
-    mapper->GetArrayAccessMode(), mapper->GetArrayId(), mapper->GetArrayName(), cellFlag);
+  vtkDataArray* scalars = vtkAbstractMapper::GetScalars(image,
+    mapper->GetScalarMode(),
+    mapper->GetArrayAccessMode(),
+    mapper->GetArrayId(),
+    mapper->GetArrayName(),
+    cellFlag);
   if (!scalars || scalars->GetNumberOfTuples() == 0)
   {
     return "the input has no scalars: name an array with SelectScalarArray and SetScalarMode";
@@ -129,14 +132,14 @@ std::string GridFromVTK::UpdateImage(
     if (components != 2 && (components != 4 || scalars->GetDataType() != VTK_UNSIGNED_CHAR))
     {
       return "dependent scalars of " + std::to_string(components) +
-        " components are not drawn: take 2 of any type, 4 of unsigned char, or "
-        "IndependentComponentsOn";
+             " components are not drawn: take 2 of any type, 4 of unsigned char, or "
+             "IndependentComponentsOn";
     }
   }
   if (components > VTK_MAX_VRCOMP)
   {
     return "scalars of " + std::to_string(components) +
-      " components are not drawn: take at most 4 (vtkImageExtractComponents)";
+           " components are not drawn: take at most 4 (vtkImageExtractComponents)";
   }
 
   int extent[6];
@@ -156,7 +159,7 @@ std::string GridFromVTK::UpdateImage(
   if (voxels != scalars->GetNumberOfTuples())
   {
     return "the scalars are " + std::to_string(scalars->GetNumberOfTuples()) + " values for " +
-      std::to_string(voxels) + " voxels: give one to each";
+           std::to_string(voxels) + " voxels: give one to each";
   }
   std::string wrong = this->UpdatePlace(image, extent, cells); // cheap, so always made anew
   if (!wrong.empty())
@@ -164,8 +167,13 @@ std::string GridFromVTK::UpdateImage(
     return wrong;
   }
 
-  const DataKey key{ scalars, static_cast<unsigned long>(scalars->GetMTime()),
-    static_cast<unsigned long>(image->GetMTime()), dims[0], dims[1], dims[2], cells,
+  const DataKey key{ scalars,
+    static_cast<unsigned long>(scalars->GetMTime()),
+    static_cast<unsigned long>(image->GetMTime()),
+    dims[0],
+    dims[1],
+    dims[2],
+    cells,
     static_cast<int>(meaning) };
   if (key == this->LastData)
   {
@@ -284,8 +292,8 @@ void GridFromVTK::MeasureRanges(int threads)
   {
     this->Ranges[c].reset();
     this->Range[c][0] = this->Range[c][1] = 0.0;
-    // The colours of RGBOpacity are read as they are: nobody asks for their range.
-    if (c >= this->TheGrid.components || (this->TheMeaning == Meaning::RGBOpacity && c < 3))
+    // Of RGBOpacity the value and, for projections, the first colour are asked for.
+    if (c >= this->TheGrid.components || (this->TheMeaning == Meaning::RGBOpacity && c % 3))
     {
       continue;
     }

@@ -39,7 +39,7 @@ public:
   /// How the components are meant.
   enum class Meaning
   {
-    Independent,  ///< each a volume of its own
+    Independent,   ///< each a volume of its own
     ColourOpacity, ///< two dependent ones: the first is coloured, the second is the value
     RGBOpacity,    ///< four dependent ones: a colour and the value
   };

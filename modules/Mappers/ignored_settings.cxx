@@ -2,16 +2,14 @@
 
 #include "scene_from_vtk.h"
 
-#include "vtkImplicitFunction.h"
 #include "vtkVolume.h"
-#include "vtkVolumeMapper.h"
 #include "vtkVolumeProperty.h"
 
 namespace brume
 {
 
 std::vector<std::string> ignored_settings(
-  vtkVolumeMapper* mapper, vtkVolume* volume, const MaskSettings& mask, int components)
+  vtkVolume* volume, const MaskSettings& mask, int components)
 {
   std::vector<std::string> names;
   const auto ignored = [&names](bool is, const char* setting)
@@ -23,14 +21,8 @@ std::vector<std::string> ignored_settings(
   };
   vtkVolumeProperty* property = volume->GetProperty();
   const bool dependent = components > 1 && !property->GetIndependentComponents();
-  const int mode = mapper->GetBlendMode();
-  const bool known =
-    mode >= vtkVolumeMapper::COMPOSITE_BLEND && mode <= vtkVolumeMapper::ISOSURFACE_BLEND;
-  ignored(!known, "BlendMode SLICE_BLEND");
-  ignored(!known && property->GetSliceFunction(), "SliceFunction");
   ignored(property->GetUseClippedVoxelIntensity() != 0, "UseClippedVoxelIntensity");
-  const bool two_dimensional =
-    property->GetTransferFunctionMode() == vtkVolumeProperty::TF_2D;
+  const bool two_dimensional = property->GetTransferFunctionMode() == vtkVolumeProperty::TF_2D;
   ignored(two_dimensional && dependent, "TransferFunctionMode TF_2D of dependent components");
   if (mask.image && mask.label_map)
   {

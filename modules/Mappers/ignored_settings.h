@@ -6,16 +6,15 @@
 #include <vector>
 
 class vtkVolume;
-class vtkVolumeMapper;
 
 namespace brume
 {
 struct MaskSettings;
 
-/// Settings of the mapper and of the volume's property that are not followed, as they stand now:
+/// Settings of the mask and of the volume's property that are not followed, as they stand now:
 /// only those that ask for something else than is drawn.
 std::vector<std::string> ignored_settings(
-  vtkVolumeMapper* mapper, vtkVolume* volume, const MaskSettings& mask, int components);
+  vtkVolume* volume, const MaskSettings& mask, int components);
 
 }
 

@@ -27,8 +27,10 @@ ImageSampling::ImageSampling(int w, int h, double d)
   }
 }
 
-std::vector<float> at_rays(
-  const std::vector<float>& depth, int width, int height, const ImageSampling& rays)
+std::vector<float> at_rays(const std::vector<float>& depth,
+  int width,
+  int height,
+  const ImageSampling& rays)
 {
   std::vector<float> result(static_cast<std::size_t>(rays.width) * rays.height);
   for (int y = 0; y < rays.height; ++y)
@@ -57,8 +59,7 @@ Film averaged(const Film& film, int per_pixel)
     for (int x = 0; x < result.width * per_pixel; ++x)
     {
       const std::size_t from = static_cast<std::size_t>(y) * film.width + x;
-      const std::size_t to =
-        static_cast<std::size_t>(y / per_pixel) * result.width + x / per_pixel;
+      const std::size_t to = static_cast<std::size_t>(y / per_pixel) * result.width + x / per_pixel;
       for (int c = 0; c < 3; ++c)
       {
         result.radiance[c][to] += share * film.radiance[c][from];
@@ -79,8 +80,8 @@ void apply_window_level(Film& film, double window, double level)
   {
     for (std::size_t i = 0; i < film.size(); ++i)
     {
-      film.radiance[c][i] = std::max(
-        0.0f, film.radiance[c][i] * scale + bias * (1.0f - film.transmittance[c][i]));
+      film.radiance[c][i] =
+        std::max(0.0f, film.radiance[c][i] * scale + bias * (1.0f - film.transmittance[c][i]));
     }
   }
 }

@@ -28,8 +28,8 @@ void light_in_world(vtkLight* light, vtkCamera* camera, glm::dvec3& position, gl
   position = to_glm(light->GetPosition());
   focal = to_glm(light->GetFocalPoint());
   vtkMatrix4x4* transform = light->LightTypeIsCameraLight()
-    ? camera->GetCameraLightTransformMatrix()
-    : light->GetTransformMatrix();
+                              ? camera->GetCameraLightTransformMatrix()
+                              : light->GetTransformMatrix();
   if (transform)
   {
     const glm::dmat4 m = to_glm(transform);
@@ -47,8 +47,9 @@ Light headlight(vtkCamera* camera)
 
 }
 
-std::vector<Light> lights_from_vtk(
-  vtkLightCollection* lights, vtkCamera* camera, glm::dvec3& ambient)
+std::vector<Light> lights_from_vtk(vtkLightCollection* lights,
+  vtkCamera* camera,
+  glm::dvec3& ambient)
 {
   ambient = glm::dvec3(0.0);
   std::vector<Light> list;
@@ -73,8 +74,8 @@ std::vector<Light> lights_from_vtk(
       glm::dvec3 focal;
       light_in_world(light, camera, l.position, focal);
       const glm::dvec3 way = focal - l.position;
-      l.direction = glm::length(way) > 0.0 ? glm::normalize(way)
-                                           : to_glm(camera->GetDirectionOfProjection());
+      l.direction =
+        glm::length(way) > 0.0 ? glm::normalize(way) : to_glm(camera->GetDirectionOfProjection());
       l.positional = light->GetPositional() != 0;
       l.attenuation = to_glm(light->GetAttenuationValues());
       l.cone_angle = light->GetConeAngle();
@@ -91,8 +92,10 @@ std::vector<Light> lights_from_vtk(
   return list;
 }
 
-Shading shading_from_vtk(
-  vtkVolumeProperty* property, int component, const glm::dvec3& ambient, bool twoSided)
+Shading shading_from_vtk(vtkVolumeProperty* property,
+  int component,
+  const glm::dvec3& ambient,
+  bool twoSided)
 {
   Shading shading;
   shading.enabled = property->GetShade(component) != 0;
@@ -108,8 +111,7 @@ Shading shading_from_vtk(
 Camera camera_from_vtk(vtkCamera* camera, double aspect)
 {
   Camera result;
-  result.clip_from_world =
-    to_glm(camera->GetCompositeProjectionTransformMatrix(aspect, -1.0, 1.0));
+  result.clip_from_world = to_glm(camera->GetCompositeProjectionTransformMatrix(aspect, -1.0, 1.0));
   result.direction = to_glm(camera->GetDirectionOfProjection());
   return result;
 }

@@ -26,8 +26,8 @@ bool any(const Scene& scene, Condition condition)
 
 bool shades(const Scene& scene)
 {
-  const bool lit =
-    scene.blend_mode == BlendMode::Composite || scene.blend_mode == BlendMode::Isosurface;
+  const bool lit = scene.blend_mode == BlendMode::Composite ||
+    scene.blend_mode == BlendMode::Isosurface || scene.blend_mode == BlendMode::Slice;
   return lit && any(scene, [](const Volume& v) { return v.shading.enabled; });
 }
 
@@ -39,7 +39,7 @@ bool has_gradient_opacity(const Scene& scene)
     [&](const Volume& v)
     {
       return has(v.classification) ||
-        std::any_of(v.label_classifications.begin(), v.label_classifications.end(), has);
+             std::any_of(v.label_classifications.begin(), v.label_classifications.end(), has);
     });
 }
 
@@ -66,6 +66,8 @@ const char* blend_mode_name(BlendMode mode)
       return "additive";
     case BlendMode::Isosurface:
       return "isosurface";
+    case BlendMode::Slice:
+      return "slice";
     default:
       return "composite";
   }
@@ -73,12 +75,15 @@ const char* blend_mode_name(BlendMode mode)
 
 bool is_radiometric(const Scene& scene, bool window_level)
 {
-  return scene.blend_mode == BlendMode::Composite && !window_level && !shades(scene) &&
+  const bool components = scene.volumes.size() > 1 && scene.mixture == Mixture::Components;
+  return scene.blend_mode == BlendMode::Composite && !components && !window_level && !shades(scene) &&
     !has_gradient_opacity(scene);
 }
 
-nlohmann::json effects_of(const Scene& scene, const MarchSettings& settings,
-  const MarchStatistics& march, bool window_level)
+nlohmann::json effects_of(const Scene& scene,
+  const MarchSettings& settings,
+  const MarchStatistics& march,
+  bool window_level)
 {
   const bool composite = scene.blend_mode == BlendMode::Composite;
   const bool seen = march.visible_bricks > 0;
@@ -91,51 +96,66 @@ nlohmann::json effects_of(const Scene& scene, const MarchSettings& settings,
   const bool clipped = any(scene, [](const Volume& v) { return !v.clipping_planes.empty(); });
   const std::string mode = blend_mode_name(scene.blend_mode);
   nlohmann::json effects = nlohmann::json::array();
-  effects.push_back(effect("absorption", composite && seen,
+  effects.push_back(effect("absorption",
+    composite && seen,
     !composite ? "the blend mode is " + mode
       : density ? (seen ? "the input is a density that is above 0 for values of the data"
                         : "the input is a density that is 0 everywhere")
-      : seen   ? "the opacity function is above 0 for values of the data"
-               : "the opacity function is 0 for every value of the data"));
-  effects.push_back(effect("emission", composite && seen && !density,
-    !composite ? "the blend mode is " + mode
+      : seen    ? "the opacity function is above 0 for values of the data"
+                : "the opacity function is 0 for every value of the data"));
+  effects.push_back(effect("emission",
+    composite && seen && !density,
+    !composite  ? "the blend mode is " + mode
       : density ? "a density absorbs and does not emit"
                 : "the transfer functions' colour is the source, as in VTK's composite mode"));
-  effects.push_back(effect("scattering", false,
+  effects.push_back(effect("scattering",
+    false,
     density ? "a density without a medium has none"
             : "a vtkVolumeProperty without a medium has none: VTK's composite mode is emission and "
               "absorption"));
-  effects.push_back(effect("projection", !composite,
+  effects.push_back(effect("projection",
+    !composite,
     composite ? "the blend mode is composite"
               : "the blend mode is " + mode + "; not a physical term"));
-  effects.push_back(effect("several volumes", composite && scene.volumes.size() > 1,
+  effects.push_back(effect("several volumes",
+    composite && scene.volumes.size() > 1,
     std::to_string(scene.volumes.size()) +
-      (scene.volumes.size() > 1 ? " volumes or components: their extinctions add up" : " volume")));
+      (scene.volumes.size() == 1                    ? " volume"
+          : scene.mixture == Mixture::Components ? " components, mixed as VTK's mappers do"
+                                                 : " volumes: their extinctions add up")));
   effects.push_back(effect("gradient shading", shading,
     shading ? "vtkVolumeProperty::Shade is on; not a physical term"
             : "vtkVolumeProperty::Shade is off"));
-  effects.push_back(effect("gradient opacity", gradient,
+  effects.push_back(effect("gradient opacity",
+    gradient,
     gradient ? "the property has a function of the gradient; not a physical term"
              : "the property has no function of the gradient"));
-  effects.push_back(effect("mask", masked,
-    masked ? "the mapper has a mask" : "the mapper has no mask"));
-  effects.push_back(effect("cropping", cropped,
+  effects.push_back(
+    effect("mask", masked, masked ? "the mapper has a mask" : "the mapper has no mask"));
+  effects.push_back(effect("cropping",
+    cropped,
     cropped ? "vtkVolumeMapper::Cropping is on" : "vtkVolumeMapper::Cropping is off"));
-  effects.push_back(effect("clipping planes", clipped,
+  effects.push_back(effect("clipping planes",
+    clipped,
     clipped ? "the mapper has clipping planes" : "the mapper has no clipping planes"));
-  effects.push_back(effect("surfaces", !scene.surface_depth.empty(),
+  effects.push_back(effect("surfaces",
+    !scene.surface_depth.empty(),
     scene.surface_depth.empty() ? "no opaque geometry is shown with the volume"
                                 : "rays end at opaque geometry"));
-  effects.push_back(effect("jitter", settings.jitter,
+  effects.push_back(effect("jitter",
+    settings.jitter,
     settings.jitter ? "the mapper's UseJittering is on: bands of steps become noise"
                     : "the mapper's UseJittering is off"));
-  effects.push_back(effect("final colour window", window_level,
+  effects.push_back(effect("final colour window",
+    window_level,
     window_level ? "FinalColorWindow or FinalColorLevel is set; not a physical term"
                  : "FinalColorWindow is 1 and FinalColorLevel is 0.5"));
-  effects.push_back(effect("leaving rays early", seen,
+  effects.push_back(effect("leaving rays early",
+    seen,
     "a ray ends when what is behind cannot change its pixel by more than the bound",
     settings.leave_error));
-  effects.push_back(effect("space leaping", march.visible_bricks < march.bricks,
+  effects.push_back(effect("space leaping",
+    march.visible_bricks < march.bricks,
     std::to_string(march.bricks - march.visible_bricks) + " of " + std::to_string(march.bricks) +
       " bricks hold no value that can be seen"));
   return effects;

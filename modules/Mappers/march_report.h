@@ -17,8 +17,10 @@ std::int64_t peak_memory_bytes();
 
 /// The effects that a picture was made with and without, as a JSON list of
 /// {name, on, reason, error_bound}.
-nlohmann::json effects_of(const Scene& scene, const MarchSettings& settings,
-  const MarchStatistics& march, bool window_level);
+nlohmann::json effects_of(const Scene& scene,
+  const MarchSettings& settings,
+  const MarchStatistics& march,
+  bool window_level);
 
 /// Whether nothing but physics had a part in the picture.
 bool is_radiometric(const Scene& scene, bool window_level);

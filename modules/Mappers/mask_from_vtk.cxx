@@ -27,16 +27,20 @@ std::string MaskFromVTK::Update(vtkImageData* mask, const Grid& grid)
       n -= cells ? 1 : 0;
     }
     if (!array || array->GetNumberOfComponents() != 1 ||
-      array->GetDataType() != VTK_UNSIGNED_CHAR || dims[0] < 1 || dims[1] < 1 || dims[2] < 1 ||
-      array->GetNumberOfTuples() != static_cast<vtkIdType>(dims[0]) * dims[1] * dims[2])
+        array->GetDataType() != VTK_UNSIGNED_CHAR || dims[0] < 1 || dims[1] < 1 || dims[2] < 1 ||
+        array->GetNumberOfTuples() != static_cast<vtkIdType>(dims[0]) * dims[1] * dims[2])
     {
       return "the mask is not an image of one component of unsigned char: cast it "
              "(vtkImageCast)";
     }
   }
-  const Key key{ array, array ? static_cast<unsigned long>(array->GetMTime()) : 0ul,
-    mask ? static_cast<unsigned long>(mask->GetMTime()) : 0ul, grid.dims[0], grid.dims[1],
-    grid.dims[2], grid.padding_x };
+  const Key key{ array,
+    array ? static_cast<unsigned long>(array->GetMTime()) : 0ul,
+    mask ? static_cast<unsigned long>(mask->GetMTime()) : 0ul,
+    grid.dims[0],
+    grid.dims[1],
+    grid.dims[2],
+    grid.padding_x };
   this->New = key != this->Last;
   if (!this->New)
   {
@@ -50,7 +54,7 @@ std::string MaskFromVTK::Update(vtkImageData* mask, const Grid& grid)
   {
     const int nx = grid.dims[0] - grid.padding_x;
     const bool same = grid.padding_x == 0 && dims[0] == nx && dims[1] == grid.dims[1] &&
-      dims[2] == grid.dims[2] && array->HasStandardMemoryLayout();
+                      dims[2] == grid.dims[2] && array->HasStandardMemoryLayout();
     if (same)
     {
       this->Labels = static_cast<const std::uint8_t*>(array->GetVoidPointer(0));
@@ -65,14 +69,14 @@ std::string MaskFromVTK::Update(vtkImageData* mask, const Grid& grid)
       {
         for (int j = 0; j < grid.dims[1]; ++j)
         {
-          const vtkIdType row = (nearest(k, grid.dims[2], dims[2]) * dims[1] +
-                                  nearest(j, grid.dims[1], dims[1])) *
+          const vtkIdType row =
+            (nearest(k, grid.dims[2], dims[2]) * dims[1] + nearest(j, grid.dims[1], dims[1])) *
             dims[0];
           for (int i = 0; i < grid.dims[0]; ++i)
           {
             const int x = std::min(i, nx - 1);
-            *out++ = static_cast<std::uint8_t>(
-              array->GetComponent(row + nearest(x, nx, dims[0]), 0));
+            *out++ =
+              static_cast<std::uint8_t>(array->GetComponent(row + nearest(x, nx, dims[0]), 0));
           }
         }
       }

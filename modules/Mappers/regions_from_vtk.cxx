@@ -72,7 +72,7 @@ Cropping cropping_from_vtk(vtkVolumeMapper* mapper, const GridFromVTK& grid)
     for (int side = 0; side < 2; ++side)
     {
       at[side] = sign * (planes[2 * data + side] - grid.Origin[data]) / grid.Spacing[image] -
-        grid.First[image];
+                 grid.First[image];
     }
     cropping.lower[image] = std::min(at[0], at[1]);
     cropping.upper[image] = std::max(at[0], at[1]);
@@ -94,6 +94,13 @@ Cropping cropping_from_vtk(vtkVolumeMapper* mapper, const GridFromVTK& grid)
   return cropping;
 }
 
+glm::dvec4 plane_from_vtk(vtkPlane* plane)
+{
+  const double* n = plane->GetNormal();
+  const double* o = plane->GetOrigin();
+  return { n[0], n[1], n[2], -(n[0] * o[0] + n[1] * o[1] + n[2] * o[2]) };
+}
+
 std::vector<glm::dvec4> clipping_planes_from_vtk(vtkVolumeMapper* mapper)
 {
   std::vector<glm::dvec4> result;
@@ -106,11 +113,7 @@ std::vector<glm::dvec4> clipping_planes_from_vtk(vtkVolumeMapper* mapper)
   planes->InitTraversal(it);
   while (vtkPlane* plane = planes->GetNextPlane(it))
   {
-    double n[3];
-    double o[3];
-    plane->GetNormal(n);
-    plane->GetOrigin(o);
-    result.emplace_back(n[0], n[1], n[2], -(n[0] * o[0] + n[1] * o[1] + n[2] * o[2]));
+    result.push_back(plane_from_vtk(plane));
   }
   return result;
 }

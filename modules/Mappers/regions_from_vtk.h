@@ -6,6 +6,7 @@
 
 #include <vector>
 
+class vtkPlane;
 class vtkVolumeMapper;
 
 namespace brume
@@ -18,6 +19,9 @@ class GridFromVTK;
 /// the image's direction only swaps and turns axes the two are the same planes, and the regions are
 /// renamed. Any other direction is taken as the nearest such one, about the image's origin.
 Cropping cropping_from_vtk(vtkVolumeMapper* mapper, const GridFromVTK& grid);
+
+/// (a, b, c, d) of a x + b y + c z + d, positive on the side that the normal points to.
+glm::dvec4 plane_from_vtk(vtkPlane* plane);
 
 /// The mapper's clipping planes: what lies on the side that a plane's normal points to stays.
 std::vector<glm::dvec4> clipping_planes_from_vtk(vtkVolumeMapper* mapper);

@@ -7,6 +7,7 @@
 
 #include "vtkContourValues.h"
 #include "vtkImageData.h"
+#include "vtkPlane.h"
 #include "vtkVolume.h"
 #include "vtkVolumeMapper.h"
 #include "vtkVolumeProperty.h"
@@ -40,16 +41,23 @@ BlendMode blend_mode_from_vtk(int mode)
       return BlendMode::Additive;
     case vtkVolumeMapper::ISOSURFACE_BLEND:
       return BlendMode::Isosurface;
+    case vtkVolumeMapper::SLICE_BLEND:
+      return BlendMode::Slice;
     default:
       return BlendMode::Composite;
   }
 }
-
 }
 
-std::string SceneFromVTK::Update(vtkVolumeMapper* mapper, vtkVolume* volume,
-  const MaskSettings& mask, double extinction, const ViewFromVTK& view)
+std::string SceneFromVTK::Update(vtkVolumeMapper* mapper,
+  vtkVolume* volume,
+  const MaskSettings& mask,
+  double extinction,
+  const ViewFromVTK& view)
 {
+  // Volumes are kept by component; surfaces want the heaviest first.
+  std::sort(this->TheScene.volumes.begin(), this->TheScene.volumes.end(),
+    [](const Volume& a, const Volume& b) { return a.grid.component < b.grid.component; });
   vtkVolumeProperty* property = volume->GetProperty(); // made if there is none
   std::string wrong = this->Source.Update(mapper, property, view.threads);
   if (wrong.empty() && mask.image && this->Source.GetGrid(0).sparse)
@@ -91,12 +99,30 @@ std::string SceneFromVTK::Update(vtkVolumeMapper* mapper, vtkVolume* volume,
     v.cropping = cropping;
     v.clipping_planes = planes;
   }
+  scene.mixture = Mixture::Components; // of one volume it means nothing
   scene.blend_mode = blend_mode_from_vtk(mapper->GetBlendMode());
-  std::copy_n(mapper->GetAverageIPScalarRange(), 2, scene.average_range);
+  const double* average = mapper->GetAverageIPScalarRange();
+  scene.average_range[0] = std::min(average[0], average[1]);
+  scene.average_range[1] = std::max(average[0], average[1]);
   vtkContourValues* values = property->GetIsoSurfaceValues();
   scene.isosurfaces.assign(
     values->GetValues(), values->GetValues() + values->GetNumberOfContours());
   std::sort(scene.isosurfaces.begin(), scene.isosurfaces.end());
+  if (scene.blend_mode == BlendMode::Slice)
+  {
+    auto* plane = vtkPlane::SafeDownCast(property->GetSliceFunction());
+    if (!plane)
+    {
+      return "there is no plane to slice with: set one with vtkVolumeProperty::SetSliceFunction";
+    }
+    scene.slice = plane_from_vtk(plane);
+  }
+  if (scene.blend_mode == BlendMode::Isosurface || scene.blend_mode == BlendMode::Slice)
+  {
+    const auto lighter = [](const Volume& a, const Volume& b) { return a.weight < b.weight; };
+    std::iter_swap(scene.volumes.begin(),
+      std::max_element(scene.volumes.begin(), scene.volumes.end(), lighter));
+  }
   scene.camera = camera_from_vtk(view.camera, static_cast<double>(view.width) / view.height);
   scene.surface_depth.clear();
   return {};
@@ -124,12 +150,19 @@ std::string SceneFromVTK::UpdateMedia(
       volumes[i].grid = this->Source.GetGrid(i);
       volumes[i].ranges = this->Source.GetRanges(i);
       volumes[i].mask.labels = this->Labels.GetLabels();
+      const bool first = volumes[i].grid.colour != VoxelColour::Value;
+      std::copy_n(
+        this->Source.GetRange(first ? 0 : volumes[i].grid.component), 2, volumes[i].grey_range);
       volumes[i].data_revision = next_revision();
     }
   }
-  const MediumKey key{ property, static_cast<unsigned long>(property->GetMTime()),
-    mask.image ? label_functions_time(property) : 0ul, this->Source.GetRevision(),
-    mask.label_map, mask.image ? mask.blend_factor : 1.0, extinction };
+  const MediumKey key{ property,
+    static_cast<unsigned long>(property->GetMTime()),
+    mask.image ? label_functions_time(property) : 0ul,
+    this->Source.GetRevision(),
+    mask.label_map,
+    mask.image ? mask.blend_factor : 1.0,
+    extinction };
   if (!voxels && key == this->LastMedium)
   {
     return {};
@@ -163,9 +196,9 @@ bool SceneFromVTK::DrawsLabels(vtkVolumeProperty* property, const MaskSettings& 
   // Labels have one set of 1D functions: none for each of several independent components, and none
   // beside a 2D function.
   return this->Labels.GetLabels() && mask.label_map && mask.blend_factor > 0.0 &&
-    this->Source.GetNumberOfVolumes() == 1 &&
-    (property->GetTransferFunctionMode() == vtkVolumeProperty::TF_1D ||
-      this->Source.GetMeaning() != GridFromVTK::Meaning::Independent);
+         this->Source.GetNumberOfVolumes() == 1 &&
+         (property->GetTransferFunctionMode() == vtkVolumeProperty::TF_1D ||
+           this->Source.GetMeaning() != GridFromVTK::Meaning::Independent);
 }
 
 void SceneFromVTK::UpdateLabels(vtkVolumeProperty* property, const MaskSettings& mask)

@@ -47,8 +47,11 @@ class SceneFromVTK
 public:
   /// Brings the scene up to date. `extinction` > 0: values are a density, see Density; 0: they are
   /// classified. Returns an empty string, or what is wrong and what to do.
-  std::string Update(vtkVolumeMapper* mapper, vtkVolume* volume, const MaskSettings& mask,
-    double extinction, const ViewFromVTK& view);
+  std::string Update(vtkVolumeMapper* mapper,
+    vtkVolume* volume,
+    const MaskSettings& mask,
+    double extinction,
+    const ViewFromVTK& view);
 
   Scene& GetScene() { return this->TheScene; }
 
@@ -62,8 +65,8 @@ private:
   GridFromVTK Source;
   MaskFromVTK Labels;
 
-  using MediumKey = std::tuple<vtkVolumeProperty*, unsigned long, unsigned long, std::uint64_t,
-    bool, double, double>;
+  using MediumKey = std::
+    tuple<vtkVolumeProperty*, unsigned long, unsigned long, std::uint64_t, bool, double, double>;
   MediumKey LastMedium{ nullptr, 0, 0, 0, false, 0.0, 0.0 };
   std::uint64_t LastVoxels = 0;
 };

@@ -29,8 +29,9 @@ struct Candidate
 
 }
 
-std::vector<vtkVolume*> overlapping_volumes(
-  vtkRenderer* renderer, vtkVolume* first, bool (*may_join)(vtkVolume*, vtkVolume*))
+std::vector<vtkVolume*> overlapping_volumes(vtkRenderer* renderer,
+  vtkVolume* first,
+  bool (*may_join)(vtkVolume*, vtkVolume*))
 {
   std::vector<vtkVolume*> others;
   std::vector<Candidate> candidates;

@@ -15,10 +15,11 @@ class vtkVolume;
 namespace brume
 {
 
-/// The visible volumes of the renderer that `may_join` and whose bounds meet those of `first`, or of
-/// one that does, and so on; without `first`, in the renderer's order.
-std::vector<vtkVolume*> overlapping_volumes(
-  vtkRenderer* renderer, vtkVolume* first, bool (*may_join)(vtkVolume* first, vtkVolume* other));
+/// The visible volumes of the renderer that `may_join` and whose bounds meet those of `first`, or
+/// of one that does, and so on; without `first`, in the renderer's order.
+std::vector<vtkVolume*> overlapping_volumes(vtkRenderer* renderer,
+  vtkVolume* first,
+  bool (*may_join)(vtkVolume* first, vtkVolume* other));
 
 /// Remembers, for the rest of a renderer's frame, that a volume was drawn together with another.
 class DrawnWithOthers

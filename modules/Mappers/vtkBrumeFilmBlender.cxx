@@ -28,7 +28,6 @@ void main()
     : texelFetch(film, ivec2(texCoord * vec2(textureSize(film, 0))), 0);
 }
 )";
-
 }
 
 vtkStandardNewMacro(vtkBrumeFilmBlender);

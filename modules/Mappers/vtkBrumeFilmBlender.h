@@ -17,8 +17,8 @@ class vtkTextureObject;
 class vtkWindow;
 
 /// Blends a film over what is already in a renderer's viewport: radiance + transmittance · frame,
-/// without touching the depth buffer. Pixel for pixel and without filtering where the film is as large
-/// as the viewport; one of another size is stretched over it, bilinear.
+/// without touching the depth buffer. Pixel for pixel and without filtering where the film is as
+/// large as the viewport; one of another size is stretched over it, bilinear.
 class vtkBrumeFilmBlender : public vtkObject
 {
 public:

@@ -7,10 +7,12 @@
 #include "Transport/marcher.h"
 #include "Transport/step_control.h"
 
+#include "vtkColorTransferFunction.h"
+#include "vtkContourValues.h"
 #include "vtkImageData.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPiecewiseFunction.h"
-#include "vtkColorTransferFunction.h"
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
 
@@ -67,6 +69,7 @@ struct vtkBrumeRayMarchMapper::Internals
   brume::Marcher Marchers[VTK_MAX_VRCOMP];
   std::vector<double> LastStep;
   brume::StepChoice Choice;
+  vtkNew<vtkContourValues> DepthPassContourValues; ///< kept for callers; nothing reads it
 };
 
 vtkStandardNewMacro(vtkBrumeRayMarchMapper);
@@ -94,6 +97,11 @@ void vtkBrumeRayMarchMapper::SetSampleDistance(double distance)
   }
 }
 
+vtkContourValues* vtkBrumeRayMarchMapper::GetDepthPassContourValues()
+{
+  return this->Internal->DepthPassContourValues;
+}
+
 void vtkBrumeRayMarchMapper::SetPartitions(unsigned short x, unsigned short y, unsigned short z)
 {
   this->Partitions[0] = x;
@@ -106,8 +114,9 @@ float vtkBrumeRayMarchMapper::GetEstimatedRenderTime(vtkRenderer* renderer, vtkV
   return static_cast<float>(this->GetSecondsOfPicture(renderer, volume));
 }
 
-float vtkBrumeRayMarchMapper::ComputeRequiredImageSampleDistance(
-  float desiredTime, vtkRenderer* renderer, vtkVolume* volume)
+float vtkBrumeRayMarchMapper::ComputeRequiredImageSampleDistance(float desiredTime,
+  vtkRenderer* renderer,
+  vtkVolume* volume)
 {
   const double seconds = this->GetSecondsOfPicture(renderer, volume);
   // Without a picture to go by there is nothing to be coarser than.
@@ -120,17 +129,18 @@ float vtkBrumeRayMarchMapper::ComputeRequiredImageSampleDistance(
   return static_cast<float>(std::min<double>(distance, this->MaximumImageSampleDistance));
 }
 
-double vtkBrumeRayMarchMapper::ChooseImageSampleDistance(
-  vtkRenderer* renderer, vtkVolume* volume, double allocated)
+double vtkBrumeRayMarchMapper::ChooseImageSampleDistance(vtkRenderer* renderer,
+  vtkVolume* volume,
+  double allocated)
 {
   return this->AutoAdjustSampleDistances
-    ? this->ComputeRequiredImageSampleDistance(
-        static_cast<float>(std::min(allocated, 1e30)), renderer, volume)
-    : this->ImageSampleDistance;
+           ? this->ComputeRequiredImageSampleDistance(
+               static_cast<float>(std::min(allocated, 1e30)), renderer, volume)
+           : this->ImageSampleDistance;
 }
 
-void vtkBrumeRayMarchMapper::AppendIgnoredSettings(
-  vtkVolume* volume, std::vector<std::string>& names)
+void vtkBrumeRayMarchMapper::AppendIgnoredSettings(vtkVolume* volume,
+  std::vector<std::string>& names)
 {
   const auto ignored = [&names](bool is, const char* setting)
   {
@@ -147,14 +157,14 @@ void vtkBrumeRayMarchMapper::AppendIgnoredSettings(
   ignored(this->DepthImageScalarType != VTK_FLOAT, "DepthImageScalarType");
   ignored(this->ClampDepthToBackface != 0, "ClampDepthToBackface");
   ignored(!this->Transfer2DYAxisArray.empty(), "Transfer2DYAxisArray");
-  ignored(this->Partitions[0] > 1 || this->Partitions[1] > 1 || this->Partitions[2] > 1,
-    "Partitions");
+  ignored(
+    this->Partitions[0] > 1 || this->Partitions[1] > 1 || this->Partitions[2] > 1, "Partitions");
   // Functions that keep their end's value beyond their nodes are the same over either range.
   vtkVolumeProperty* property = volume->GetProperty();
   ignored(this->ScalarOpacityRangeType != SCALAR && !property->GetScalarOpacity()->GetClamping(),
     "ScalarOpacityRangeType");
   ignored(this->ColorRangeType != SCALAR && property->GetColorChannels() == 3 &&
-      !property->GetRGBTransferFunction()->GetClamping(),
+            !property->GetRGBTransferFunction()->GetClamping(),
     "ColorRangeType");
   ignored(this->GradientOpacityRangeType != SCALAR, "GradientOpacityRangeType");
 }
@@ -201,11 +211,11 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& scene, brume::Film& film)
     settings.step = this->FixedStep();
   }
 
-  const brume::MarchStatistics march = scene.blend_mode != brume::BlendMode::Composite &&
-      scene.volumes.size() > 1
-    ? this->RenderComponents(scene, settings, film)
-    : this->Internal->Marchers[0].render(scene, settings, film,
-        [this](double fraction) { return this->TellProgress(fraction); });
+  const brume::MarchStatistics march =
+    scene.blend_mode != brume::BlendMode::Composite && scene.volumes.size() > 1
+      ? this->RenderComponents(scene, settings, film)
+      : this->Internal->Marchers[0].render(
+          scene, settings, film, [this](double fraction) { return this->TellProgress(fraction); });
   this->SecondsRender = march.seconds;
 
   if (march.rays == 0)
@@ -252,8 +262,9 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& scene, brume::Film& film)
   return march.completed;
 }
 
-brume::MarchStatistics vtkBrumeRayMarchMapper::RenderComponents(
-  const brume::Scene& scene, const brume::MarchSettings& settings, brume::Film& film)
+brume::MarchStatistics vtkBrumeRayMarchMapper::RenderComponents(const brume::Scene& scene,
+  const brume::MarchSettings& settings,
+  brume::Film& film)
 {
   // Projections are of one volume. Of several components each has its own, and as in VTK's GPU
   // mapper their pictures add up by weight, or surfaces are those of the heaviest.
@@ -263,8 +274,8 @@ brume::MarchStatistics vtkBrumeRayMarchMapper::RenderComponents(
   {
     const auto lighter = [](const brume::Volume& a, const brume::Volume& b)
     { return a.weight < b.weight; };
-    from = std::max_element(scene.volumes.begin(), scene.volumes.end(), lighter) -
-      scene.volumes.begin();
+    from =
+      std::max_element(scene.volumes.begin(), scene.volumes.end(), lighter) - scene.volumes.begin();
     until = from + 1;
   }
   brume::MarchStatistics sum;
@@ -276,9 +287,10 @@ brume::MarchStatistics vtkBrumeRayMarchMapper::RenderComponents(
   {
     one.volumes[0] = scene.volumes[i];
     one.volumes[0].weight = 1.0;
-    const brume::MarchStatistics march = this->Internal->Marchers[i].render(one, settings, part,
-      [&](double fraction)
-      { return this->TellProgress((i - from + fraction) / (until - from)); });
+    const brume::MarchStatistics march = this->Internal->Marchers[i].render(one,
+      settings,
+      part,
+      [&](double fraction) { return this->TellProgress((i - from + fraction) / (until - from)); });
     Add(sum, march);
     if (!march.completed)
     {
@@ -287,7 +299,7 @@ brume::MarchStatistics vtkBrumeRayMarchMapper::RenderComponents(
     brume::add_weighted(film, part, until - from == 1 ? 1.0 : scene.volumes[i].weight);
   }
   const bool grey = scene.blend_mode == brume::BlendMode::AverageIntensity ||
-    scene.blend_mode == brume::BlendMode::Additive;
+                    scene.blend_mode == brume::BlendMode::Additive;
   for (int c = 0; c < 3 && grey; ++c)
   {
     for (float& radiance : film.radiance[c])

@@ -4,11 +4,12 @@
  *
  * With a plain vtkVolumeProperty the picture is the one that VTK's ray-cast mappers draw, free of
  * their step and table errors. In COMPOSITE_BLEND: emission and absorption by transfer functions,
- * σt = −ln(1 − opacity) / ScalarOpacityUnitDistance, gradient opacity, and shading by the renderer's
- * lights. Each step is a stretch of constant extinction and source, sampled at its middle, and the
- * last step of a ray is cut where the volume ends; halving the step changes the picture by no more
- * than its error. Maximum, minimum and average intensity, additive and isosurface blending, cropping,
- * clipping planes, masks, several components and 2D transfer functions are there as in VTK.
+ * σt = −ln(1 − opacity) / ScalarOpacityUnitDistance, gradient opacity, and shading by the
+ * renderer's lights. Each step is a stretch of constant extinction and source, sampled at its
+ * middle, and the last step of a ray is cut where the volume ends; halving the step changes the
+ * picture by no more than its error. Maximum, minimum and average intensity, additive and
+ * isosurface blending, cropping, clipping planes, masks, several components and 2D transfer
+ * functions are there as in VTK.
  *
  * The settings have the names that they have in vtkFixedPointVolumeRayCastMapper and
  * vtkOpenGLGPUVolumeRayCastMapper. docs/user/drop-in.md tells of each what it does here, and
@@ -24,6 +25,7 @@
 #include <string> // for std::string
 #include <vector> // for std::vector
 
+class vtkContourValues;
 class vtkRenderWindow;
 class vtkVolumeProperty;
 
@@ -48,9 +50,10 @@ public:
    *   edge with which the estimated error is within three quarters of Tolerance; the choice is made
    *   from 256 rays of the first picture's camera and kept while data, property and tolerance stay.
    * - The distance between rays is chosen by the time that VTK allocates to the volume, from
-   *   vtkRenderWindow::SetDesiredUpdateRate: one ray a pixel where the last picture was fast enough,
-   *   fewer where it was not, within MinimumImageSampleDistance and MaximumImageSampleDistance. The
-   *   first picture, and each one with time enough (an interactor's StillUpdateRate), is whole.
+   *   vtkRenderWindow::SetDesiredUpdateRate: one ray a pixel where the last picture was fast
+   * enough, fewer where it was not, within MinimumImageSampleDistance and
+   * MaximumImageSampleDistance. The first picture, and each one with time enough (an interactor's
+   * StillUpdateRate), is whole.
    *
    * Off: SampleDistance and ImageSampleDistance.
    */
@@ -70,9 +73,9 @@ public:
 
   ///@{
   /**
-   * Whether, with AutoAdjustSampleDistances off, the distance between samples comes from the spacing
-   * in place of SampleDistance: half the mean edge of a voxel for volumes of 100³ voxels and more,
-   * and less, down to a hundredth of it, for smaller ones, as VTK has it. Default off.
+   * Whether, with AutoAdjustSampleDistances off, the distance between samples comes from the
+   * spacing in place of SampleDistance: half the mean edge of a voxel for volumes of 100³ voxels
+   * and more, and less, down to a hundredth of it, for smaller ones, as VTK has it. Default off.
    */
   vtkSetClampMacro(LockSampleDistanceToInputSpacing, vtkTypeBool, 0, 1);
   vtkGetMacro(LockSampleDistanceToInputSpacing, vtkTypeBool);
@@ -81,10 +84,10 @@ public:
 
   ///@{
   /**
-   * Pixels between rays, in a window, when AutoAdjustSampleDistances is off. 1, the default: one ray
-   * a pixel. 2: a ray for 2 × 2 pixels, interpolated between them. ½: 2 × 2 rays for each pixel,
-   * averaged; below 1 the nearest whole number of them is taken. Range 0.1 to 100; values outside are
-   * clamped. Pictures without a window have one ray a pixel.
+   * Pixels between rays, in a window, when AutoAdjustSampleDistances is off. 1, the default: one
+   * ray a pixel. 2: a ray for 2 × 2 pixels, interpolated between them. ½: 2 × 2 rays for each
+   * pixel, averaged; below 1 the nearest whole number of them is taken. Range 0.1 to 100; values
+   * outside are clamped. Pictures without a window have one ray a pixel.
    */
   vtkSetClampMacro(ImageSampleDistance, float, 0.1f, 100.0f);
   vtkGetMacro(ImageSampleDistance, float);
@@ -104,8 +107,8 @@ public:
   ///@{
   /**
    * Whether each ray begins a part of a step of its own further on, which turns the bands of steps
-   * that are too long into noise. The parts depend on the pixel alone: the same scene gives the same
-   * picture. Default off.
+   * that are too long into noise. The parts depend on the pixel alone: the same scene gives the
+   * same picture. Default off.
    */
   vtkSetClampMacro(UseJittering, vtkTypeBool, 0, 1);
   vtkGetMacro(UseJittering, vtkTypeBool);
@@ -118,8 +121,9 @@ public:
    * last one, within the bounds above; and the seconds that it would take with one ray a pixel, 0
    * before the first. Without a volume: of the one that this mapper drew.
    */
-  float ComputeRequiredImageSampleDistance(
-    float desiredTime, vtkRenderer* renderer, vtkVolume* volume = nullptr);
+  float ComputeRequiredImageSampleDistance(float desiredTime,
+    vtkRenderer* renderer,
+    vtkVolume* volume = nullptr);
   float GetEstimatedRenderTime(vtkRenderer* renderer, vtkVolume* volume = nullptr);
   ///@}
 
@@ -138,6 +142,7 @@ public:
   vtkSetClampMacro(UseDepthPass, vtkTypeBool, 0, 1);
   vtkGetMacro(UseDepthPass, vtkTypeBool);
   vtkBooleanMacro(UseDepthPass, vtkTypeBool);
+  vtkContourValues* GetDepthPassContourValues();
   vtkSetMacro(MaxMemoryInBytes, vtkIdType);
   vtkGetMacro(MaxMemoryInBytes, vtkIdType);
   vtkSetClampMacro(MaxMemoryFraction, float, 0.1f, 1.0f);
@@ -178,16 +183,18 @@ protected:
   ~vtkBrumeRayMarchMapper() override;
 
   bool RenderScene(brume::Scene& scene, brume::Film& film) override;
-  double ChooseImageSampleDistance(
-    vtkRenderer* renderer, vtkVolume* volume, double allocated) override;
+  double ChooseImageSampleDistance(vtkRenderer* renderer,
+    vtkVolume* volume,
+    double allocated) override;
   void AppendIgnoredSettings(vtkVolume* volume, std::vector<std::string>& names) override;
 
 private:
   vtkBrumeRayMarchMapper(const vtkBrumeRayMarchMapper&) = delete;
   void operator=(const vtkBrumeRayMarchMapper&) = delete;
 
-  brume::MarchStatistics RenderComponents(
-    const brume::Scene& scene, const brume::MarchSettings& settings, brume::Film& film);
+  brume::MarchStatistics RenderComponents(const brume::Scene& scene,
+    const brume::MarchSettings& settings,
+    brume::Film& film);
   double FixedStep();
 
   vtkTypeBool AutoAdjustSampleDistances = 1;

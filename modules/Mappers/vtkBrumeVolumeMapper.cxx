@@ -95,8 +95,8 @@ void vtkBrumeVolumeMapper::SetFinalColorWindow(float window)
 {
   if (window == 0.0f || !std::isfinite(window))
   {
-    vtkWarningMacro("FinalColorWindow must not be " << window << "; kept: "
-                                                    << this->FinalColorWindow);
+    vtkWarningMacro(
+      "FinalColorWindow must not be " << window << "; kept: " << this->FinalColorWindow);
     return;
   }
   if (window != this->FinalColorWindow)
@@ -142,8 +142,7 @@ const brume::Scene* vtkBrumeVolumeMapper::UpdateScene(
   return this->UpdateScene(volume, { camera, lights, width, height, this->TwoSidedLighting != 0 });
 }
 
-brume::Scene* vtkBrumeVolumeMapper::UpdateScene(
-  vtkVolume* volume, const brume::ViewFromVTK& view)
+brume::Scene* vtkBrumeVolumeMapper::UpdateScene(vtkVolume* volume, const brume::ViewFromVTK& view)
 {
   if (!volume || !view.camera || view.width <= 0 || view.height <= 0)
   {
@@ -160,9 +159,11 @@ brume::Scene* vtkBrumeVolumeMapper::UpdateScene(
   {
     brume::ViewFromVTK own = view;
     own.threads = this->NumberOfThreads;
-    wrong = this->Internal->Builder.Update(this, volume,
+    wrong = this->Internal->Builder.Update(this,
+      volume,
       { this->Internal->Mask, this->MaskType == LabelMapMaskType, this->MaskBlendFactor },
-      this->Extinction, own);
+      this->Extinction,
+      own);
   }
   catch (const std::bad_alloc&)
   {
@@ -184,8 +185,9 @@ brume::Scene* vtkBrumeVolumeMapper::UpdateScene(
   return &scene;
 }
 
-brume::Scene* vtkBrumeVolumeMapper::UpdateScene(
-  vtkVolume* first, const std::vector<vtkVolume*>& others, const brume::ViewFromVTK& view)
+brume::Scene* vtkBrumeVolumeMapper::UpdateScene(vtkVolume* first,
+  const std::vector<vtkVolume*>& others,
+  const brume::ViewFromVTK& view)
 {
   brume::Scene* scene = this->UpdateScene(first, view);
   if (!scene || others.empty())
@@ -194,13 +196,13 @@ brume::Scene* vtkBrumeVolumeMapper::UpdateScene(
   }
   brume::Scene& together = this->Internal->Together;
   together = *scene;
+  together.mixture = brume::Mixture::Sum;
   for (vtkVolume* volume : others)
   {
     auto* mapper = vtkBrumeVolumeMapper::SafeDownCast(volume->GetMapper());
     if (brume::Scene* other = mapper->UpdateScene(volume, view))
     {
-      together.volumes.insert(
-        together.volumes.end(), other->volumes.begin(), other->volumes.end());
+      together.volumes.insert(together.volumes.end(), other->volumes.begin(), other->volumes.end());
       this->SecondsScene += mapper->SecondsScene;
     }
   }
@@ -247,8 +249,10 @@ bool vtkBrumeVolumeMapper::RenderFilm(
   return this->RenderUpdated(*scene, film);
 }
 
-bool vtkBrumeVolumeMapper::RenderFilm(vtkVolumeCollection* volumes, vtkCamera* camera,
-  vtkLightCollection* lights, brume::Film& film)
+bool vtkBrumeVolumeMapper::RenderFilm(vtkVolumeCollection* volumes,
+  vtkCamera* camera,
+  vtkLightCollection* lights,
+  brume::Film& film)
 {
   std::vector<vtkVolume*> others;
   std::set<vtkAbstractVolumeMapper*> mappers;
@@ -345,7 +349,7 @@ void vtkBrumeVolumeMapper::ResetClippingRange(vtkVolume* volume, vtkCamera* came
 
 void vtkBrumeVolumeMapper::WarnOfIgnoredSettings(vtkVolume* volume, int components)
 {
-  this->IgnoredSettings = brume::ignored_settings(this, volume,
+  this->IgnoredSettings = brume::ignored_settings(volume,
     { this->Internal->Mask, this->MaskType == LabelMapMaskType, this->MaskBlendFactor },
     components);
   this->AppendIgnoredSettings(volume, this->IgnoredSettings);
@@ -358,8 +362,11 @@ void vtkBrumeVolumeMapper::WarnOfIgnoredSettings(vtkVolume* volume, int componen
   }
 }
 
-std::vector<float> vtkBrumeVolumeMapper::ReadSurfaceDepth(
-  vtkRenderer* renderer, int left, int bottom, int width, int height) const
+std::vector<float> vtkBrumeVolumeMapper::ReadSurfaceDepth(vtkRenderer* renderer,
+  int left,
+  int bottom,
+  int width,
+  int height) const
 {
   std::vector<float> result;
   if (!this->IntermixIntersectingGeometry)
@@ -396,7 +403,7 @@ bool vtkBrumeVolumeMapper::MayJoin(vtkVolume* first, vtkVolume* other)
   const auto joins = [](vtkBrumeVolumeMapper* mapper)
   { return mapper && mapper->CombineVolumes && mapper->GetBlendMode() == COMPOSITE_BLEND; };
   return joins(a) && joins(b) && a != b && std::string(a->GetClassName()) == b->GetClassName() &&
-    b->GetDataObjectInput();
+         b->GetDataObjectInput();
 }
 
 void vtkBrumeVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
@@ -427,8 +434,12 @@ void vtkBrumeVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
       }
     }
   }
-  brume::Scene* scene = this->UpdateScene(volume, others,
-    { renderer->GetActiveCamera(), renderer->GetLights(), width, height,
+  brume::Scene* scene = this->UpdateScene(volume,
+    others,
+    { renderer->GetActiveCamera(),
+      renderer->GetLights(),
+      width,
+      height,
       renderer->GetTwoSidedLighting() != 0 });
   for (vtkVolume* other : others)
   {
@@ -464,10 +475,11 @@ void vtkBrumeVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
     return;
   }
   this->Internal->Seconds[{ renderer, volume }] = this->SecondsRender *
-    (static_cast<double>(width) * height) / (static_cast<double>(rays.width) * rays.height);
-  const bool shown = rays.per_pixel > 1
-    ? this->Internal->Blender->Blend(brume::averaged(film, rays.per_pixel), renderer)
-    : this->Internal->Blender->Blend(film, renderer);
+                                                  (static_cast<double>(width) * height) /
+                                                  (static_cast<double>(rays.width) * rays.height);
+  const bool shown = rays.per_pixel > 1 ? this->Internal->Blender->Blend(
+                                            brume::averaged(film, rays.per_pixel), renderer)
+                                        : this->Internal->Blender->Blend(film, renderer);
   if (!shown)
   {
     vtkErrorMacro("The picture was not shown: the render window is not an OpenGL window.");
@@ -490,8 +502,9 @@ void vtkBrumeVolumeMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "TwoSidedLighting: " << (this->TwoSidedLighting ? "On" : "Off") << "\n";
   os << indent << "CombineVolumes: " << (this->CombineVolumes ? "On" : "Off") << "\n";
-  os << indent << "IntermixIntersectingGeometry: "
-     << (this->IntermixIntersectingGeometry ? "On" : "Off") << "\n";
+  os << indent
+     << "IntermixIntersectingGeometry: " << (this->IntermixIntersectingGeometry ? "On" : "Off")
+     << "\n";
   os << indent << "MaskInput: " << this->Internal->Mask << "\n";
   os << indent << "MaskType: " << this->MaskType << "\n";
   os << indent << "MaskBlendFactor: " << this->MaskBlendFactor << "\n";

@@ -13,9 +13,9 @@
  *
  * It reads the vtkVolumeProperty, the renderer's lights and camera and the prop's matrix as VTK's
  * mappers do, makes its picture on the CPU, and blends it into the frame. Opaque geometry that was
- * drawn before hides what is behind it. Input is a vtkImageData of any type, points or cells: of one
- * to four independent components, of two dependent ones (colour, opacity), or of four dependent ones
- * of unsigned char (red, green, blue, opacity). Or a vtkBrumeSparseVolume, which stays sparse.
+ * drawn before hides what is behind it. Input is a vtkImageData of any type, points or cells: of
+ * one to four independent components, of two dependent ones (colour, opacity), or of four dependent
+ * ones of unsigned char (red, green, blue, opacity). Or a vtkBrumeSparseVolume, which stays sparse.
  *
  * RenderFilm() and RenderImage() make the same picture with no window, no OpenGL and no display.
  *
@@ -86,8 +86,8 @@ public:
 
   ///@{
   /**
-   * A mask, as vtkGPUVolumeRayCastMapper has it: an image of one component of unsigned char over the
-   * volume's own voxels. One of other dimensions is stretched over the volume and read at the
+   * A mask, as vtkGPUVolumeRayCastMapper has it: an image of one component of unsigned char over
+   * the volume's own voxels. One of other dimensions is stretched over the volume and read at the
    * nearest of its voxels. Default null: none.
    */
   virtual void SetMaskInput(vtkImageData* mask);
@@ -116,8 +116,8 @@ public:
 
   ///@{
   /**
-   * How much of a label's colour and opacity is its own rather than the volume's. Default 1: its own
-   * alone. Range 0 to 1; values outside are clamped.
+   * How much of a label's colour and opacity is its own rather than the volume's. Default 1: its
+   * own alone. Range 0 to 1; values outside are clamped.
    */
   vtkSetClampMacro(MaskBlendFactor, float, 0.0f, 1.0f);
   vtkGetMacro(MaskBlendFactor, float);
@@ -206,6 +206,22 @@ public:
   bool RenderImage(vtkVolume* volume, vtkCamera* camera, vtkLightCollection* lights, int width,
     int height, const double background[3], vtkImageData* image);
 
+  ///@{
+  /**
+   * A thumbnail, as the stock mappers make it: the volume seen along a direction in parallel
+   * projection, its width along x filling the picture, with another blend mode, without cropping,
+   * lit from the viewer, over black. `image` has the picture's dimensions, and becomes red, green and
+   * blue bytes.
+   */
+  void CreateCanonicalView(vtkVolume* volume, vtkImageData* image, int blendMode,
+    double viewDirection[3], double viewUp[3]);
+  void CreateCanonicalView(vtkRenderer*, vtkVolume* volume, vtkImageData* image, int blendMode,
+    double viewDirection[3], double viewUp[3])
+  {
+    this->CreateCanonicalView(volume, image, blendMode, viewDirection, viewUp);
+  }
+  ///@}
+
   /**
    * Fits the camera's clipping range to the volume's bounds, as vtkRenderer::ResetCameraClippingRange
    * does for all props of a window.
@@ -224,8 +240,10 @@ public:
    * Several volumes as one, with the sum of their extinctions: the first of `volumes` has this
    * mapper, and the others have mappers of the same class, one each, in composite mode.
    */
-  bool RenderFilm(
-    vtkVolumeCollection* volumes, vtkCamera* camera, vtkLightCollection* lights, brume::Film& film);
+  bool RenderFilm(vtkVolumeCollection* volumes,
+    vtkCamera* camera,
+    vtkLightCollection* lights,
+    brume::Film& film);
 
   /**
    * The scene as Transport sees it, brought up to date for a picture of this size; for measuring
@@ -256,17 +274,18 @@ protected:
   bool TellProgress(double fraction);
 
   /**
-   * Pixels between rays for the volume's next picture in a window, below 1 for several rays a pixel;
-   * 1 unless a subclass knows better. `allocated`: the seconds that VTK gives to it.
+   * Pixels between rays for the volume's next picture in a window, below 1 for several rays a
+   * pixel; 1 unless a subclass knows better. `allocated`: the seconds that VTK gives to it.
    */
-  virtual double ChooseImageSampleDistance(
-    vtkRenderer* renderer, vtkVolume* volume, double allocated);
+  virtual double ChooseImageSampleDistance(vtkRenderer* renderer,
+    vtkVolume* volume,
+    double allocated);
 
   /// Adds settings that are not followed, as they stand now, by name.
   virtual void AppendIgnoredSettings(vtkVolume*, std::vector<std::string>&) {}
 
-  /// Seconds that a picture of the volume in this renderer would have taken with one ray a pixel, by
-  /// the last render; 0 before. Without a volume: of any.
+  /// Seconds that a picture of the volume in this renderer would have taken with one ray a pixel,
+  /// by the last render; 0 before. Without a volume: of any.
   double GetSecondsOfPicture(vtkRenderer* renderer, vtkVolume* volume) const;
 
   /// Seconds that bringing the last scene up to date took.
@@ -295,12 +314,16 @@ private:
   void operator=(const vtkBrumeVolumeMapper&) = delete;
 
   brume::Scene* UpdateScene(vtkVolume* volume, const brume::ViewFromVTK& view);
-  brume::Scene* UpdateScene(
-    vtkVolume* first, const std::vector<vtkVolume*>& others, const brume::ViewFromVTK& view);
+  brume::Scene* UpdateScene(vtkVolume* first,
+    const std::vector<vtkVolume*>& others,
+    const brume::ViewFromVTK& view);
   bool RenderUpdated(brume::Scene& scene, brume::Film& film);
   void WarnOfIgnoredSettings(vtkVolume* volume, int components);
-  std::vector<float> ReadSurfaceDepth(
-    vtkRenderer* renderer, int left, int bottom, int width, int height) const;
+  std::vector<float> ReadSurfaceDepth(vtkRenderer* renderer,
+    int left,
+    int bottom,
+    int width,
+    int height) const;
   static bool MayJoin(vtkVolume* first, vtkVolume* other);
 
   struct Internals;

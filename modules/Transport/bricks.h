@@ -52,7 +52,8 @@ struct VisibleBricks
 };
 
 /// `can_show(lower, upper)` tells whether any value in the range has an optical depth;
-/// `empty_value` stands in for non-finite voxels when values are interpolated.
+/// `empty_value` stands in for non-finite voxels when values are interpolated. It is asked from many
+/// threads at once, and must give the same range the same answer.
 VisibleBricks find_visible_bricks(const BrickRanges& ranges,
   const std::function<bool(float, float)>& can_show, float empty_value);
 

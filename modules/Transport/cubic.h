@@ -1,4 +1,5 @@
-// A trilinear value along a straight ray through one cell: a cubic polynomial, known from four values.
+// A trilinear value along a straight ray through one cell: a cubic polynomial, known from four
+// values.
 #pragma once
 
 #include <algorithm>

@@ -37,7 +37,7 @@ void Grid::validate() const
   if (sparse)
   {
     if (voxels || components != 1 || sparse->type() != type ||
-      !std::equal(dims, dims + 3, sparse->dims().begin()))
+        !std::equal(dims, dims + 3, sparse->dims().begin()))
     {
       throw std::invalid_argument("a sparse grid is of one component, and as its voxels say: take "
                                   "it from SparseVoxels::grid()");
@@ -60,7 +60,7 @@ void Grid::validate() const
   if (components < 1 || components > 4 || component < 0 || component >= components)
   {
     throw std::invalid_argument("a grid has 1 to 4 components, and its value is one of them, not " +
-      std::to_string(component) + " of " + std::to_string(components));
+                                std::to_string(component) + " of " + std::to_string(components));
   }
   if (colour == VoxelColour::RGB && (components != 4 || type != VoxelType::UInt8))
   {

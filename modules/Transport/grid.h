@@ -73,8 +73,8 @@ struct Grid
   std::size_t bytes() const { return voxel_count() * components * size_of(type); }
 
   /// Throws std::invalid_argument for what the integrators cannot read: no memory, a size out of
-  /// range, a component that is not there, colours in voxels that are not 4 × UInt8, a dense grid of
-  /// Float16.
+  /// range, a component that is not there, colours in voxels that are not 4 × UInt8, a dense grid
+  /// of Float16.
   void validate() const;
 };
 

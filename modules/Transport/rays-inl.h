@@ -173,8 +173,14 @@ public:
     return true;
   }
 
-  int pixel_x(int lane) const { return this->X + lane % packet_width; }
-  int pixel_y(int lane) const { return this->Y + lane / packet_width; }
+  int pixel_x(int lane) const
+  {
+    return this->X + lane % packet_width;
+  }
+  int pixel_y(int lane) const
+  {
+    return this->Y + lane / packet_width;
+  }
   bool in_tile(int lane) const
   {
     return this->pixel_x(lane) < this->Task.x1 && this->pixel_y(lane) < this->Task.y1;
@@ -338,7 +344,8 @@ private:
       rays.value[3 + axis] = hn::IfThenElseZero(hit, delta);
     }
     rays.value[6] = skipped;
-    rays.value[7] = hn::IfThenElseZero(hit, hn::MulAdd(end - begin, whole * set(1.0 / this->Task.step), skipped));
+    rays.value[7] =
+      hn::IfThenElseZero(hit, hn::MulAdd(end - begin, whole * set(1.0 / this->Task.step), skipped));
     rays.value[8] = hn::IfThenElseZero(hit, world * (begin - skipped * part));
     rays.value[9] = hn::IfThenElseZero(hit, world * part);
     return rays;
@@ -348,7 +355,10 @@ private:
 
   /// The part of the first step that is left out, in [0, 1): even over the pixels of a
   /// neighbourhood.
-  double jitter(int lane) const { return pixel_hash(this->pixel_x(lane), this->pixel_y(lane)); }
+  double jitter(int lane) const
+  {
+    return pixel_hash(this->pixel_x(lane), this->pixel_y(lane));
+  }
 
   const MarchTask& Task;
   int Volumes;

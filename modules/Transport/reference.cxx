@@ -17,7 +17,10 @@
 namespace brume
 {
 
-bool for_each_ray(const Scene& scene, Film& film, int threads, const Progress& progress,
+bool for_each_ray(const Scene& scene,
+  Film& film,
+  int threads,
+  const Progress& progress,
   const std::function<void(std::size_t, const PixelRay&)>& draw)
 {
   if (!scene.surface_depth.empty() && scene.surface_depth.size() != film.size())
@@ -60,8 +63,11 @@ bool for_each_ray(const Scene& scene, Film& film, int threads, const Progress& p
   return !aborted;
 }
 
-void store(
-  Film& film, std::size_t pixel, const PixelRay& ray, const RayResult& result, double error)
+void store(Film& film,
+  std::size_t pixel,
+  const PixelRay& ray,
+  const RayResult& result,
+  double error)
 {
   for (int c = 0; c < 3; ++c)
   {
@@ -106,7 +112,10 @@ ReferenceStatistics render_reference(const Scene& scene, const ReferenceSettings
   const ReferenceScene prepared(scene);
   std::mutex mutex;
   double total_change = 0.0;
-  statistics.completed = for_each_ray(scene, film, settings.threads, progress,
+  statistics.completed = for_each_ray(scene,
+    film,
+    settings.threads,
+    progress,
     [&](std::size_t pixel, const PixelRay& ray)
     {
       const std::unique_ptr<RayIntegral> integral = make_ray_integral(prepared, ray);
@@ -136,5 +145,4 @@ ReferenceStatistics render_reference(const Scene& scene, const ReferenceSettings
     std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return statistics;
 }
-
 }

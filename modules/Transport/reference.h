@@ -36,13 +36,13 @@ struct ReferenceStatistics
   bool completed = false;
 };
 
-/// Fills the film with the truth, in any blend mode. Along each ray, the places where it passes from
-/// one voxel cell to the next are found first; each stretch between two of them, in which the
-/// interpolated value is smooth, is cut into pieces of equal length (midpoint rule), 1, 2, 4, 8, … of
-/// them until the ray's result stops changing; more where the transfer functions rise and fall
+/// Fills the film with the truth, in any blend mode. Along each ray, the places where it passes
+/// from one voxel cell to the next are found first; each stretch between two of them, in which the
+/// interpolated value is smooth, is cut into pieces of equal length (midpoint rule), 1, 2, 4, 8, …
+/// of them until the ray's result stops changing; more where the transfer functions rise and fall
 /// within the stretch. Largest and smallest values, isosurfaces and slices are found in closed form
-/// instead (docs/theory/modes.md) and count as settled. Film::error holds the last change. Throws as
-/// Marcher::render does.
+/// instead (docs/theory/modes.md) and count as settled. Film::error holds the last change. Throws
+/// as Marcher::render does.
 ReferenceStatistics render_reference(const Scene& scene, const ReferenceSettings& settings,
   Film& film, const Progress& progress = {});
 
@@ -59,9 +59,9 @@ enum class SamplePlacement
 };
 
 /// Fills the film with a fixed step's picture in double precision: what a step and its placement do
-/// to the picture, apart from any rounding. The step is a length of the first volume's data. Rays end
-/// when less than `leave_below` passes. Projections take their values at the samples; isosurfaces and
-/// slices are exact. Returns whether it was completed.
+/// to the picture, apart from any rounding. The step is a length of the first volume's data. Rays
+/// end when less than `leave_below` passes. Projections take their values at the samples;
+/// isosurfaces and slices are exact. Returns whether it was completed.
 bool render_fixed_step(const Scene& scene, double step, SamplePlacement placement,
   double leave_below, int threads, Film& film, const Progress& progress = {});
 

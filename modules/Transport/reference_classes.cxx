@@ -56,16 +56,17 @@ void ReferenceClasses::add_up_variation()
   double most = 1e-300;
   const auto extinction = [&](int column, int row)
   {
-    return this->Rows == 1 ? this->Extinction[column]
-                           : extinction_from_opacity(
-                               c.value_gradient[4 * (std::size_t(row) * this->Columns + column) + 3],
-                               c.unit_distance);
+    return this->Rows == 1
+             ? this->Extinction[column]
+             : extinction_from_opacity(
+                 c.value_gradient[4 * (std::size_t(row) * this->Columns + column) + 3],
+                 c.unit_distance);
   };
   const auto colour = [&](int column, int row, int channel)
   {
     return this->Rows == 1
-      ? (c.rgb.empty() ? 0.0 : c.rgb[3 * column + channel])
-      : c.value_gradient[4 * (std::size_t(row) * this->Columns + column) + channel];
+             ? (c.rgb.empty() ? 0.0 : c.rgb[3 * column + channel])
+             : c.value_gradient[4 * (std::size_t(row) * this->Columns + column) + channel];
   };
   for (int row = 0; row < this->Rows; ++row)
   {
@@ -129,9 +130,10 @@ double ReferenceClasses::extinction(double value, double magnitude) const
 double ReferenceClasses::opacity(double value, double magnitude) const
 {
   const Classification& c = this->TheFunctions;
-  const double opacity = this->two_dimensional()
-    ? this->node(value, magnitude, 3)
-    : interpolate(c.opacity.data(), table_position(value, c.lower, c.upper, this->Columns));
+  const double opacity =
+    this->two_dimensional()
+      ? this->node(value, magnitude, 3)
+      : interpolate(c.opacity.data(), table_position(value, c.lower, c.upper, this->Columns));
   return opacity > 0.0 ? std::min(opacity, 1.0) : 0.0;
 }
 
@@ -141,10 +143,11 @@ glm::dvec3 ReferenceClasses::colour(double value, double magnitude) const
   glm::dvec3 result(0.0);
   for (int channel = 0; channel < 3; ++channel)
   {
-    result[channel] = this->two_dimensional()
-      ? this->node(value, magnitude, channel)
-      : interpolate(
-          c.rgb.data() + channel, table_position(value, c.lower, c.upper, this->Columns), 3);
+    result[channel] =
+      this->two_dimensional()
+        ? this->node(value, magnitude, channel)
+        : interpolate(
+            c.rgb.data() + channel, table_position(value, c.lower, c.upper, this->Columns), 3);
   }
   return result;
 }

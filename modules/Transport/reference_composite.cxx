@@ -5,8 +5,13 @@
 namespace brume
 {
 
-void pass_sample(const ReferenceScene& scene, const PixelRay& ray, const int* volumes,
-  std::size_t count, double s, double width, RayResult& result)
+void pass_sample(const ReferenceScene& scene,
+  const PixelRay& ray,
+  const int* volumes,
+  std::size_t count,
+  double s,
+  double width,
+  RayResult& result)
 {
   double sum = 0.0; // optical depths for a way of 1 in s
   double squares = 0.0;
@@ -73,8 +78,13 @@ public:
       const double width = (stretch.part.to - stretch.part.from) / count;
       for (int piece = 0; piece < count; ++piece)
       {
-        pass_sample(this->TheScene, this->TheRay, this->Volumes.data() + stretch.first_volume,
-          stretch.volume_count, stretch.part.from + width * (piece + 0.5), width, result);
+        pass_sample(this->TheScene,
+          this->TheRay,
+          this->Volumes.data() + stretch.first_volume,
+          stretch.volume_count,
+          stretch.part.from + width * (piece + 0.5),
+          width,
+          result);
       }
       if (result.transmittance < nothing_passes)
       {
@@ -112,7 +122,8 @@ private:
       this->Volumes.push_back(v);
       ++stretch.volume_count;
       const double variation = medium.variation(medium.label(ray.place(middle)),
-        medium.value(ray.place(part.from)), medium.value(ray.place(part.to)));
+        medium.value(ray.place(part.from)),
+        medium.value(ray.place(part.to)));
       stretch.factor = std::max(stretch.factor, extra_pieces(variation));
     }
     if (stretch.volume_count > 0)

@@ -20,8 +20,10 @@ struct Sample
 
 /// Calls take(part's index, sample) along parts in order, until it returns false.
 template <class Part, class Take>
-void for_each_sample(
-  const std::vector<Part>& parts, double step, SamplePlacement placement, const Take& take)
+void for_each_sample(const std::vector<Part>& parts,
+  double step,
+  SamplePlacement placement,
+  const Take& take)
 {
   if (parts.empty())
   {
@@ -67,13 +69,18 @@ void for_each_sample(
   }
 }
 
-RayResult composite_fixed(const ReferenceScene& scene, const PixelRay& ray, double step,
-  SamplePlacement placement, double leave_below)
+RayResult composite_fixed(const ReferenceScene& scene,
+  const PixelRay& ray,
+  double step,
+  SamplePlacement placement,
+  double leave_below)
 {
   RayResult result;
   const std::vector<RayInterval> intervals = ray.intervals();
   std::vector<int> visible;
-  for_each_sample(intervals, step, placement,
+  for_each_sample(intervals,
+    step,
+    placement,
     [&](std::size_t interval, const Sample& sample)
     {
       visible.clear();
@@ -91,8 +98,12 @@ RayResult composite_fixed(const ReferenceScene& scene, const PixelRay& ray, doub
 }
 
 /// What one volume makes of a projection: a colour and an opacity.
-Tinted project_fixed(const ReferenceScene& scene, std::size_t v, const VolumeRay& ray, double step,
-  SamplePlacement placement, RayResult& result)
+Tinted project_fixed(const ReferenceScene& scene,
+  std::size_t v,
+  const VolumeRay& ray,
+  double step,
+  SamplePlacement placement,
+  RayResult& result)
 {
   const ReferenceMedium& medium = scene.media[v];
   const Volume& volume = scene.scene.volumes[v];
@@ -105,7 +116,9 @@ Tinted project_fixed(const ReferenceScene& scene, std::size_t v, const VolumeRay
   int best_label = -1;
   double sum = 0.0;
   double length = 0.0;
-  for_each_sample(ray.parts, step, placement,
+  for_each_sample(ray.parts,
+    step,
+    placement,
     [&](std::size_t, const Sample& sample)
     {
       const glm::dvec3 place = ray.place(sample.s);
@@ -131,9 +144,9 @@ Tinted project_fixed(const ReferenceScene& scene, std::size_t v, const VolumeRay
       if (mode == BlendMode::Additive || (value >= range[0] && value <= range[1]))
       {
         length += sample.width;
-        sum += span > 0.0
-          ? medium.projected_opacity(label, place) * (value - black_white[0]) / span * sample.width
-          : 0.0;
+        sum += span > 0.0 ? medium.projected_opacity(label, place) * (value - black_white[0]) /
+                              span * sample.width
+                          : 0.0;
       }
       return true;
     });
@@ -147,12 +160,15 @@ Tinted project_fixed(const ReferenceScene& scene, std::size_t v, const VolumeRay
   }
   return { 1.0,
     glm::dvec3(mode == BlendMode::AverageIntensity
-        ? sum / length
-        : sum * ray.length / volume.classification.unit_distance) };
+                 ? sum / length
+                 : sum * ray.length / volume.classification.unit_distance) };
 }
 
-RayResult fixed(const ReferenceScene& scene, const PixelRay& ray, double step,
-  SamplePlacement placement, double leave_below)
+RayResult fixed(const ReferenceScene& scene,
+  const PixelRay& ray,
+  double step,
+  SamplePlacement placement,
+  double leave_below)
 {
   switch (scene.scene.blend_mode)
   {
@@ -174,7 +190,7 @@ RayResult fixed(const ReferenceScene& scene, const PixelRay& ray, double step,
     opacity += tinted.opacity * weight;
   }
   const bool grey = scene.scene.blend_mode == BlendMode::AverageIntensity ||
-    scene.scene.blend_mode == BlendMode::Additive;
+                    scene.scene.blend_mode == BlendMode::Additive;
   if (grey)
   {
     result.radiance = glm::clamp(result.radiance, 0.0, 1.0);
@@ -186,8 +202,13 @@ RayResult fixed(const ReferenceScene& scene, const PixelRay& ray, double step,
 
 }
 
-bool render_fixed_step(const Scene& scene, double step, SamplePlacement placement,
-  double leave_below, int threads, Film& film, const Progress& progress)
+bool render_fixed_step(const Scene& scene,
+  double step,
+  SamplePlacement placement,
+  double leave_below,
+  int threads,
+  Film& film,
+  const Progress& progress)
 {
   if (!(step > 0.0) || !std::isfinite(step))
   {
@@ -195,7 +216,10 @@ bool render_fixed_step(const Scene& scene, double step, SamplePlacement placemen
   }
   scene.validate();
   const ReferenceScene prepared(scene);
-  return for_each_ray(scene, film, threads, progress,
+  return for_each_ray(scene,
+    film,
+    threads,
+    progress,
     [&](std::size_t pixel, const PixelRay& ray)
     {
       // The step is a length of the first volume's data.

@@ -76,7 +76,8 @@ public:
           }
           return this->voxel(index[0], index[1], index[2], this->TheGrid.component);
         };
-        // The differences come first, so that the gradient of a constant is 0, not a rounding error.
+        // The differences come first, so that the gradient of a constant is 0, not a rounding
+        // error.
         sum[axis] += weight * 0.5 * (neighbour(1) - neighbour(-1));
       }
     }

@@ -62,8 +62,13 @@ public:
 std::unique_ptr<RayIntegral> make_ray_integral(const ReferenceScene& scene, const PixelRay& ray);
 
 /// One place s of a composite, which stands for a stretch of `width`, both in parts of the ray.
-void pass_sample(const ReferenceScene& scene, const PixelRay& ray, const int* volumes,
-  std::size_t count, double s, double width, RayResult& result);
+void pass_sample(const ReferenceScene& scene,
+  const PixelRay& ray,
+  const int* volumes,
+  std::size_t count,
+  double s,
+  double width,
+  RayResult& result);
 
 /// Further pieces of a stretch for each whole rise or fall of a transfer function in it, and their
 /// bound: so that two coarse results do not agree on having missed a peak.

@@ -14,8 +14,8 @@ namespace brume
 ReferenceMedium::ReferenceMedium(const Scene& scene, const Volume& volume)
   : TheVolume(volume)
   , Shade(prepare_shading(scene, volume))
-  , Ranges(volume.ranges ? volume.ranges
-                         : std::make_shared<BrickRanges>(measure_bricks(volume.grid)))
+  , Ranges(
+      volume.ranges ? volume.ranges : std::make_shared<BrickRanges>(measure_bricks(volume.grid)))
   , WorldFromIndex(volume.world_from_data * volume.data_from_index)
 {
   this->WorldFromGradient = glm::transpose(glm::inverse(glm::dmat3(this->WorldFromIndex)));
@@ -37,13 +37,15 @@ ReferenceMedium::ReferenceMedium(const Scene& scene, const Volume& volume)
     this->EmptyValue = this->Ranges->upper;
   }
   this->Values = ReferenceGrid::make(volume.grid, this->EmptyValue);
-  this->Bricks = find_visible_bricks(*this->Ranges,
+  this->Bricks = find_visible_bricks(
+    *this->Ranges,
     [&](float lower, float upper)
     {
       return this->Classes.empty()
-        ? upper > 0.0f
-        : std::any_of(this->Classes.begin(), this->Classes.end(),
-            [&](const ReferenceClasses& c) { return c.can_show(lower, upper); });
+               ? upper > 0.0f
+               : std::any_of(this->Classes.begin(),
+                   this->Classes.end(),
+                   [&](const ReferenceClasses& c) { return c.can_show(lower, upper); });
     },
     static_cast<float>(this->EmptyValue));
 }
@@ -110,8 +112,10 @@ double ReferenceMedium::variation(int label, double from, double to) const
   return this->Classes.empty() || label < 0 ? 0.0 : this->Classes[label].variation(from, to);
 }
 
-glm::dvec3 ReferenceMedium::colour(
-  const ReferenceClasses& c, const glm::dvec3& place, double value, double magnitude) const
+glm::dvec3 ReferenceMedium::colour(const ReferenceClasses& c,
+  const glm::dvec3& place,
+  double value,
+  double magnitude) const
 {
   switch (this->TheVolume.grid.colour)
   {
@@ -120,23 +124,28 @@ glm::dvec3 ReferenceMedium::colour(
     case VoxelColour::First:
       return c.colour(this->Values->value(place, 0), magnitude);
     case VoxelColour::RGB:
-      return glm::dvec3(this->Values->value(place, 0), this->Values->value(place, 1),
+      return glm::dvec3(this->Values->value(place, 0),
+               this->Values->value(place, 1),
                this->Values->value(place, 2)) /
-        255.0;
+             255.0;
   }
   return c.colour(value, magnitude);
 }
 
-glm::dvec3 ReferenceMedium::shaded(const glm::dvec3& place, const glm::dvec3& along,
-  const glm::dvec3& gradient, const glm::dvec3& colour) const
+glm::dvec3 ReferenceMedium::shaded(const glm::dvec3& place,
+  const glm::dvec3& along,
+  const glm::dvec3& gradient,
+  const glm::dvec3& colour) const
 {
   using scalar::Vec3;
   const glm::dvec3 normal = this->WorldFromGradient * gradient;
   const glm::dvec3 view = -glm::normalize(glm::dmat3(this->WorldFromIndex) * along);
   const glm::dvec3 world = glm::dvec3(this->WorldFromIndex * glm::dvec4(place, 1.0));
   const Vec3<double> lit = scalar::shade<double>(this->Shade,
-    Vec3<double>{ normal.x, normal.y, normal.z }, Vec3<double>{ view.x, view.y, view.z },
-    Vec3<double>{ world.x, world.y, world.z }, Vec3<double>{ colour.x, colour.y, colour.z });
+    Vec3<double>{ normal.x, normal.y, normal.z },
+    Vec3<double>{ view.x, view.y, view.z },
+    Vec3<double>{ world.x, world.y, world.z },
+    Vec3<double>{ colour.x, colour.y, colour.z });
   return { lit.x, lit.y, lit.z };
 }
 
@@ -181,8 +190,10 @@ Optical ReferenceMedium::at(const glm::dvec3& place, const glm::dvec3& along) co
   return result;
 }
 
-Tinted ReferenceMedium::surface(
-  int label, const glm::dvec3& place, const glm::dvec3& along, double value) const
+Tinted ReferenceMedium::surface(int label,
+  const glm::dvec3& place,
+  const glm::dvec3& along,
+  double value) const
 {
   const ReferenceClasses& c = this->Classes[label];
   const glm::dvec3 gradient = this->Values->gradient(place);
@@ -200,16 +211,14 @@ Tinted ReferenceMedium::surface(
 Tinted ReferenceMedium::projected(int label, const glm::dvec3& place, double value) const
 {
   const ReferenceClasses& c = this->Classes[label];
-  const double magnitude =
-    c.two_dimensional() ? c.magnitude(this->Values->gradient(place)) : 0.0;
+  const double magnitude = c.two_dimensional() ? c.magnitude(this->Values->gradient(place)) : 0.0;
   return { c.opacity(value, magnitude), this->colour(c, place, value, magnitude) };
 }
 
 double ReferenceMedium::projected_opacity(int label, const glm::dvec3& place) const
 {
   const ReferenceClasses& c = this->Classes[label];
-  const double magnitude =
-    c.two_dimensional() ? c.magnitude(this->Values->gradient(place)) : 0.0;
+  const double magnitude = c.two_dimensional() ? c.magnitude(this->Values->gradient(place)) : 0.0;
   return c.opacity(this->value(place), magnitude);
 }
 

@@ -68,9 +68,13 @@ public:
 
 private:
   std::size_t brick(const glm::dvec3& place) const;
-  glm::dvec3 colour(
-    const ReferenceClasses& c, const glm::dvec3& place, double value, double magnitude) const;
-  glm::dvec3 shaded(const glm::dvec3& place, const glm::dvec3& along, const glm::dvec3& gradient,
+  glm::dvec3 colour(const ReferenceClasses& c,
+    const glm::dvec3& place,
+    double value,
+    double magnitude) const;
+  glm::dvec3 shaded(const glm::dvec3& place,
+    const glm::dvec3& along,
+    const glm::dvec3& gradient,
     const glm::dvec3& colour) const;
 
   const Volume& TheVolume;

@@ -156,9 +156,9 @@ public:
       if (length > 0.0)
       {
         any = true;
-        grey += volume.weight *
-          (this->Mean ? sum / length
-                      : sum * this->TheRay.volumes[v].length / volume.classification.unit_distance);
+        grey += volume.weight * (this->Mean ? sum / length
+                                            : sum * this->TheRay.volumes[v].length /
+                                                volume.classification.unit_distance);
       }
     }
     if (any)

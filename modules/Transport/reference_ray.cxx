@@ -12,7 +12,8 @@ namespace brume
 
 bool PixelRay::empty() const
 {
-  return std::all_of(this->volumes.begin(), this->volumes.end(),
+  return std::all_of(this->volumes.begin(),
+    this->volumes.end(),
     [](const VolumeRay& ray) { return ray.parts.empty(); });
 }
 
@@ -163,8 +164,9 @@ void ReferenceRays::find_parts(const Volume& volume, const Frame& frame, VolumeR
     int region = 0;
     for (int axis = 2; axis >= 0; --axis)
     {
-      const int side =
-        middle[axis] < cropping.lower[axis] ? 0 : middle[axis] > cropping.upper[axis] ? 2 : 1;
+      const int side = middle[axis] < cropping.lower[axis]   ? 0
+                       : middle[axis] > cropping.upper[axis] ? 2
+                                                             : 1;
       region = 3 * region + side;
     }
     if ((cropping.regions >> region & 1u) == 0 || !(cuts[i - 1] < cuts[i]))
@@ -195,8 +197,8 @@ void CellWalk::add(const VolumeRay& ray, const Volume& volume)
     // Trilinear cells end at voxels; the nearest voxel's, and those of a mask, half-way between.
     for (double offset : { 0.0, 0.5 })
     {
-      const bool ends_here = offset == 0.0 ? volume.grid.linear
-                                           : !volume.grid.linear || volume.mask.labels != nullptr;
+      const bool ends_here =
+        offset == 0.0 ? volume.grid.linear : !volume.grid.linear || volume.mask.labels != nullptr;
       if (!ends_here || ray.along[axis] == 0.0)
       {
         continue;

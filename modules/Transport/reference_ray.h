@@ -24,9 +24,9 @@ struct RayPart
 /// A ray as one volume has it.
 struct VolumeRay
 {
-  glm::dvec3 begin{ 0.0 }; ///< index space, s = 0
-  glm::dvec3 along{ 0.0 }; ///< index space, from s = 0 to s = 1
-  double length = 0.0;     ///< from s = 0 to s = 1, in the data's units
+  glm::dvec3 begin{ 0.0 };    ///< index space, s = 0
+  glm::dvec3 along{ 0.0 };    ///< index space, from s = 0 to s = 1
+  double length = 0.0;        ///< from s = 0 to s = 1, in the data's units
   std::vector<RayPart> parts; ///< what the volume draws, in order, apart from one another
 
   glm::dvec3 place(double s) const { return begin + along * s; }
@@ -45,7 +45,8 @@ struct PixelRay
   std::vector<VolumeRay> volumes; ///< as many as the scene's
   double world_length = 0.0;      ///< from s = 0 to s = 1
   bool empty() const;
-  /// Cut wherever a volume begins or ends; in order, without the stretches in which nothing is drawn.
+  /// Cut wherever a volume begins or ends; in order, without the stretches in which nothing is
+  /// drawn.
   std::vector<RayInterval> intervals() const;
 };
 

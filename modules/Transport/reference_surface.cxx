@@ -29,8 +29,7 @@ public:
     , Values(scene.scene.isosurfaces)
   {
     std::sort(this->Values.begin(), this->Values.end());
-    this->Values.erase(
-      std::unique(this->Values.begin(), this->Values.end()), this->Values.end());
+    this->Values.erase(std::unique(this->Values.begin(), this->Values.end()), this->Values.end());
   }
 
   bool exact() const override { return true; }
@@ -55,8 +54,7 @@ public:
         {
           continue;
         }
-        const int label = this->Medium.label(
-          this->TheRay.place(0.5 * (part.from + part.to)));
+        const int label = this->Medium.label(this->TheRay.place(0.5 * (part.from + part.to)));
         if (label < 0)
         {
           begins = true;
@@ -72,7 +70,10 @@ public:
 private:
   /// Draws the surfaces of one stretch between cell borders. `above` tells for each value on which
   /// side the ray is; one that only touches a value stays where it was.
-  void cross(const RayPart& part, int label, bool begins, std::vector<char>& above,
+  void cross(const RayPart& part,
+    int label,
+    bool begins,
+    std::vector<char>& above,
     RayResult& result) const
   {
     const double width = part.to - part.from;
@@ -111,18 +112,19 @@ private:
           continue;
         }
         above[i] = !above[i];
-        crossings.push_back(
-          { j == 0 ? 0.0 : cubic.root(wanted, turns[j - 1], turns[j]), wanted });
+        crossings.push_back({ j == 0 ? 0.0 : cubic.root(wanted, turns[j - 1], turns[j]), wanted });
       }
     }
-    std::sort(crossings.begin(), crossings.end(),
+    std::sort(crossings.begin(),
+      crossings.end(),
       [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
     for (const Crossing& crossing : crossings)
     {
       const double s = part.from + width * crossing.t;
-      pass_surface(this->Medium.surface(
-                     label, this->TheRay.place(s), this->TheRay.along, crossing.value),
-        s, result);
+      pass_surface(
+        this->Medium.surface(label, this->TheRay.place(s), this->TheRay.along, crossing.value),
+        s,
+        result);
     }
   }
 
@@ -179,7 +181,8 @@ public:
       {
         pass_surface(
           this->Medium.surface(label, place, this->TheRay.along, this->Medium.value(place)),
-          this->At, result);
+          this->At,
+          result);
       }
       break;
     }

@@ -23,7 +23,8 @@ void validate(const Classification& c, const Grid& grid)
 {
   if (!c.value_gradient.empty())
   {
-    require(c.value_gradient_width >= 2 &&
+    require(
+      c.value_gradient_width >= 2 &&
         c.value_gradient.size() % (4 * static_cast<std::size_t>(c.value_gradient_width)) == 0 &&
         c.value_gradient.size() >= 8 * static_cast<std::size_t>(c.value_gradient_width),
       "a transfer function of value and gradient needs whole rows of 2 nodes and more, and 2 rows");
@@ -37,7 +38,7 @@ void validate(const Classification& c, const Grid& grid)
     return;
   }
   require(c.opacity.size() >= 2 &&
-      (grid.colour == VoxelColour::RGB || c.rgb.size() == 3 * c.opacity.size()),
+            (grid.colour == VoxelColour::RGB || c.rgb.size() == 3 * c.opacity.size()),
     "a transfer function needs at least 2 nodes, and as many colours");
 }
 
@@ -85,9 +86,8 @@ void Scene::validate() const
     require(std::isfinite(value), "the value of an isosurface must be finite");
   }
   require(this->blend_mode != BlendMode::Slice ||
-      (glm::dot(glm::dvec3(this->slice), glm::dvec3(this->slice)) > 0.0 &&
-        std::isfinite(glm::dot(this->slice, this->slice))),
+            (glm::dot(glm::dvec3(this->slice), glm::dvec3(this->slice)) > 0.0 &&
+              std::isfinite(glm::dot(this->slice, this->slice))),
     "the plane of a slice needs a normal and finite numbers");
 }
-
 }

@@ -50,8 +50,9 @@ struct Classification
 
   /// A transfer function of value and gradient magnitude in place of opacity, rgb and
   /// gradient_opacity, which must then be empty: R, G, B, A a node, values from `lower` to `upper`
-  /// along a row, gradient magnitudes from 0 to `gradient_upper` from row to row. Colour and opacity
-  /// (not extinction) are bilinear between nodes; the end's entry holds beyond. Empty: none.
+  /// along a row, gradient magnitudes from 0 to `gradient_upper` from row to row. Colour and
+  /// opacity (not extinction) are bilinear between nodes; the end's entry holds beyond. Empty:
+  /// none.
   std::vector<double> value_gradient;
   int value_gradient_width = 0; ///< nodes in a row; ≥ 2, and as many rows as fit, ≥ 2
 };
@@ -79,9 +80,9 @@ struct Cropping
   double lower[3] = { 0, 0, 0 };
   double upper[3] = { 0, 0, 0 };
   /// Bit x + 3 y + 9 z tells whether the region is drawn that is the x-th along the first axis (0
-  /// before the lower plane, 1 between, 2 beyond the upper), the y-th and the z-th along the others.
-  /// A ray that runs in a plane is between. The same 27 bits as vtkVolumeMapper's; 0x2000 is the box
-  /// in the middle.
+  /// before the lower plane, 1 between, 2 beyond the upper), the y-th and the z-th along the
+  /// others. A ray that runs in a plane is between. The same 27 bits as vtkVolumeMapper's; 0x2000
+  /// is the box in the middle.
   std::uint32_t regions = 0x2000;
 };
 
@@ -151,8 +152,9 @@ struct Volume
   Density density;
   Classification classification;
   Shading shading;
-  /// A factor on the extinction (and so on the light sent), as vtkVolumeProperty's component weight;
-  /// ≥ 0. In projections it multiplies the volume's share of the pixel; surfaces do not take it.
+  /// A factor on the extinction (and so on the light sent), as vtkVolumeProperty's component
+  /// weight; ≥ 0. In projections it multiplies the volume's share of the pixel; surfaces do not
+  /// take it.
   double weight = 1.0;
   /// The values that AverageIntensity and Additive draw black and white: the range of all values of
   /// the component, for VTK's mappers. Where the second is not above the first, all is black. In
@@ -239,10 +241,9 @@ struct Scene
   /// from the bottom up, as many as the film has pixels; empty for none. Rays end there.
   std::vector<float> surface_depth;
 
-  /// Throws std::invalid_argument for what no integrator can draw: see Grid::validate and the bounds
-  /// of Volume's parts; a density of several components, a density in another mode than Composite,
-  /// colours that are missing, isovalues or a slice that are not finite.
+  /// Throws std::invalid_argument for what no integrator can draw: see Grid::validate and the
+  /// bounds of Volume's parts; a density of several components, a density in another mode than
+  /// Composite, colours that are missing, isovalues or a slice that are not finite.
   void validate() const;
 };
-
 }

@@ -64,7 +64,7 @@ struct BrickReach
         {
           taint[x] += row[x] * 0.0f;
         }
-        for (int part = rows; ; part = (part - 1) & rows)
+        for (int part = rows;; part = (part - 1) & rows)
         {
           for (int x = 0; x < edge; ++x)
           {
@@ -97,8 +97,7 @@ private:
   {
     for (int i = 0; i < SparseVoxels::brick_voxels; ++i)
     {
-      const int low = ((i & 7) == 0 ? 1 : 0) | ((i >> 3 & 7) == 0 ? 2 : 0) |
-        (i >> 6 == 0 ? 4 : 0);
+      const int low = ((i & 7) == 0 ? 1 : 0) | ((i >> 3 & 7) == 0 ? 2 : 0) | (i >> 6 == 0 ? 4 : 0);
       for (int s = 0; s < 8; ++s)
       {
         if ((s & low) == s)
@@ -202,7 +201,7 @@ public:
           {
             const std::int32_t first = cube[axis] << this->Shift;
             bricks *= std::min(box.last[axis], first + (1 << this->Shift)) -
-              std::max(box.first[axis], first) + 1;
+                      std::max(box.first[axis], first) + 1;
             at = at * this->Ranges.dims[axis] + cube[axis];
           }
           this->widen(at, range, bricks);
@@ -246,12 +245,11 @@ private:
     {
       std::atomic_ref<std::uint8_t>(this->NonFinite[cube]).store(1, std::memory_order_relaxed);
     }
-    std::atomic_ref<std::int64_t>(this->Reached[cube])
-      .fetch_add(bricks, std::memory_order_relaxed);
+    std::atomic_ref<std::int64_t>(this->Reached[cube]).fetch_add(bricks, std::memory_order_relaxed);
   }
 
   BrickRanges& Ranges;
-  int Shift; ///< log2 of a cube's edge in bricks
+  int Shift;                         ///< log2 of a cube's edge in bricks
   std::vector<std::int64_t> Reached; ///< bricks and parts of tiles that each cube reaches
   std::vector<std::uint8_t> NonFinite;
 };
@@ -292,7 +290,8 @@ BrickRanges measure_sparse_bricks(const SparseVoxels& voxels, int threads)
     [&]
     {
       const std::size_t first = 1 + voxels.tile_slots();
-      tbb::parallel_for(std::size_t(0), voxels.places().size(),
+      tbb::parallel_for(std::size_t(0),
+        voxels.places().size(),
         [&](std::size_t i)
         {
           const BrickReach reach = reach_of(voxels, first + i);

@@ -100,14 +100,15 @@ void sort_unique(std::vector<std::uint64_t>& numbers)
 class Contents
 {
 public:
-  Contents(const std::array<std::int32_t, 3>& dims, const std::vector<BrickPlace>& places,
+  Contents(const std::array<std::int32_t, 3>& dims,
+    const std::vector<BrickPlace>& places,
     const std::vector<BrickBox>& boxes)
     : Dims(dims)
     , Boxes(boxes)
     , Numbers(places.size())
   {
-    tbb::parallel_for(std::size_t(0), places.size(),
-      [&](std::size_t i) { this->Numbers[i] = morton(places[i]); });
+    tbb::parallel_for(
+      std::size_t(0), places.size(), [&](std::size_t i) { this->Numbers[i] = morton(places[i]); });
     if (std::adjacent_find(this->Numbers.begin(), this->Numbers.end()) != this->Numbers.end())
     {
       throw std::invalid_argument("two bricks of the sparse grid are at one place");
@@ -148,7 +149,8 @@ public:
       {
         return false;
       }
-      for_each_cube(box, shift,
+      for_each_cube(box,
+        shift,
         [&](const BrickPlace& page)
         {
           if (!covers(box, page, shift))
@@ -275,8 +277,8 @@ void choose_shape(const Contents& contents, std::size_t pool_bytes, SparseTable&
 std::uint64_t morton(const BrickPlace& place)
 {
   return spread(static_cast<std::uint32_t>(place[0])) |
-    spread(static_cast<std::uint32_t>(place[1])) << 1 |
-    spread(static_cast<std::uint32_t>(place[2])) << 2;
+         spread(static_cast<std::uint32_t>(place[1])) << 1 |
+         spread(static_cast<std::uint32_t>(place[2])) << 2;
 }
 
 BrickPlace from_morton(std::uint64_t number)
@@ -285,8 +287,10 @@ BrickPlace from_morton(std::uint64_t number)
 }
 
 SparseTable::SparseTable(const std::array<std::int32_t, 3>& dims,
-  const std::vector<BrickPlace>& places, std::int32_t first_slot,
-  const std::vector<BrickBox>& boxes, std::size_t pool_bytes)
+  const std::vector<BrickPlace>& places,
+  std::int32_t first_slot,
+  const std::vector<BrickBox>& boxes,
+  std::size_t pool_bytes)
 {
   const Contents contents(dims, places, boxes);
   choose_shape(contents, pool_bytes, *this);
@@ -338,7 +342,8 @@ SparseTable::SparseTable(const std::array<std::int32_t, 3>& dims,
   for (std::size_t i = 0; i < uniform.size(); ++i)
   {
     std::fill_n(slots.begin() + static_cast<std::ptrdiff_t>((1 + i) << 3 * k),
-      std::size_t(1) << 3 * k, uniform[i]);
+      std::size_t(1) << 3 * k,
+      uniform[i]);
   }
   for (std::size_t i = 0; i < numbers.size(); ++i)
   {
@@ -351,7 +356,8 @@ SparseTable::SparseTable(const std::array<std::int32_t, 3>& dims,
     const std::size_t at =
       std::lower_bound(uniform.begin(), uniform.end(), box.slot) - uniform.begin();
     const auto shared = static_cast<std::int32_t>((1 + at) << 3 * k);
-    for_each_cube(box, k,
+    for_each_cube(box,
+      k,
       [&](const BrickPlace& page)
       {
         std::int32_t& base = page_at(page);
@@ -367,7 +373,8 @@ SparseTable::SparseTable(const std::array<std::int32_t, 3>& dims,
           part.first[axis] = std::max(box.first[axis], page[axis] << k);
           part.last[axis] = std::min(box.last[axis], (page[axis] << k) + mask);
         }
-        for_each_cube(part, 0,
+        for_each_cube(part,
+          0,
           [&](const BrickPlace& brick)
           {
             std::int32_t& slot = slots[base + in_page(brick[0], brick[1], brick[2])];
@@ -377,7 +384,8 @@ SparseTable::SparseTable(const std::array<std::int32_t, 3>& dims,
       });
   }
   std::atomic<bool> brick_in_box{ false };
-  tbb::parallel_for(std::size_t(0), places.size(),
+  tbb::parallel_for(std::size_t(0),
+    places.size(),
     [&](std::size_t i)
     {
       const BrickPlace& p = places[i];
@@ -406,7 +414,7 @@ std::int32_t SparseTable::slot(std::int32_t x, std::int32_t y, std::int32_t z) c
   {
     const std::int32_t n = (1 << d) - 1;
     page = static_cast<std::size_t>(directory[at]) +
-      (((z >> k & n) << d | (y >> k & n)) << d | (x >> k & n));
+           (((z >> k & n) << d | (y >> k & n)) << d | (x >> k & n));
   }
   const std::int32_t m = (1 << k) - 1;
   return slots[pages[page] + (((z & m) << k | (y & m)) << k | (x & m))];

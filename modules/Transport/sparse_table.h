@@ -1,5 +1,5 @@
-// Which brick lies where: from the coordinates of a brick to its slot, in memory that grows with what
-// is there and not with the box around it.
+// Which brick lies where: from the coordinates of a brick to its slot, in memory that grows with
+// what is there and not with the box around it.
 #pragma once
 
 #include <array>
@@ -40,18 +40,20 @@ BrickPlace from_morton(std::uint64_t number);
 /// From brick coordinates to slots. Kernels read its arrays:
 ///
 ///     page = pages[((bz >> k)·ny + (by >> k))·nx + (bx >> k)]
-///     slot = slots[page + (((bz & m) << k | by & m) << k | bx & m)]      k = page_shift, m = 2^k − 1
+///     slot = slots[page + (((bz & m) << k | by & m) << k | bx & m)]      k = page_shift, m = 2^k −
+///     1
 ///
-/// with nx, ny = top[0], top[1]. `pages` is dense over the box, and holds the place in `slots` where
-/// the page's block of (2^k)³ slots begins. Pages without a brick share the block at 0, pages wholly
-/// within boxes of the same slot share one too. k, 0 to 6, is what takes the least memory.
+/// with nx, ny = top[0], top[1]. `pages` is dense over the box, and holds the place in `slots`
+/// where the page's block of (2^k)³ slots begins. Pages without a brick share the block at 0, pages
+/// wholly within boxes of the same slot share one too. k, 0 to 6, is what takes the least memory.
 ///
 /// Where the box is so wide that even its pages are many, there is a level more: `directory` is not
 /// empty, dense over the box in cubes of (2^d)³ pages, d = directory_shift, and holds the place in
 /// `pages` where the cube's block of (2^d)³ pages begins (0: a cube without bricks):
 ///
 ///     cube = directory[((bz >> (k + d))·ny + (by >> (k + d)))·nx + (bx >> (k + d))]
-///     page = pages[cube + (((bz >> k & n) << d | by >> k & n) << d | bx >> k & n)]        n = 2^d − 1
+///     page = pages[cube + (((bz >> k & n) << d | by >> k & n) << d | bx >> k & n)]        n = 2^d
+///     − 1
 struct SparseTable
 {
   int page_shift = 0;
@@ -68,8 +70,11 @@ struct SparseTable
   /// which kernels pay with a read more, is made only where it saves 1/32 of that.
   /// Throws std::invalid_argument where two bricks or boxes overlap, std::length_error where the
   /// table would need more than 2³¹ entries.
-  SparseTable(const std::array<std::int32_t, 3>& dims, const std::vector<BrickPlace>& places,
-    std::int32_t first_slot, const std::vector<BrickBox>& boxes, std::size_t pool_bytes);
+  SparseTable(const std::array<std::int32_t, 3>& dims,
+    const std::vector<BrickPlace>& places,
+    std::int32_t first_slot,
+    const std::vector<BrickBox>& boxes,
+    std::size_t pool_bytes);
 
   /// The slot at coordinates from 0 to dims − 1.
   std::int32_t slot(std::int32_t x, std::int32_t y, std::int32_t z) const;

@@ -30,10 +30,9 @@ std::uint32_t to_voxel(VoxelType type, double value)
 {
   const auto whole = [value](double lower, double upper)
   {
-    return std::isnan(value)
-      ? 0u
-      : static_cast<std::uint32_t>(
-          static_cast<std::int32_t>(std::lround(std::clamp(value, lower, upper))));
+    return std::isnan(value) ? 0u
+                             : static_cast<std::uint32_t>(static_cast<std::int32_t>(
+                                 std::lround(std::clamp(value, lower, upper))));
   };
   switch (type)
   {
@@ -69,8 +68,11 @@ void SparseVoxels::Free::operator()(void* memory) const
   std::free(memory);
 }
 
-SparseVoxels::SparseVoxels(VoxelType type, double background, const SparseTopology& topology,
-  const Fill& fill, int threads)
+SparseVoxels::SparseVoxels(VoxelType type,
+  double background,
+  const SparseTopology& topology,
+  const Fill& fill,
+  int threads)
   : Type(type)
   , Background(background)
 {
@@ -93,7 +95,8 @@ SparseVoxels::SparseVoxels(VoxelType type, double background, const SparseTopolo
       };
       std::vector<Entry> order(count);
       this->Places.resize(count);
-      tbb::parallel_for(std::size_t(0), count,
+      tbb::parallel_for(std::size_t(0),
+        count,
         [&](std::size_t i)
         {
           BrickPlace place = topology.bricks[i];
@@ -103,9 +106,11 @@ SparseVoxels::SparseVoxels(VoxelType type, double background, const SparseTopolo
           }
           order[i] = { morton(place), i };
         });
-      tbb::parallel_sort(order.begin(), order.end(),
+      tbb::parallel_sort(order.begin(),
+        order.end(),
         [](const Entry& a, const Entry& b) { return a.number < b.number; });
-      tbb::parallel_for(std::size_t(0), count,
+      tbb::parallel_for(std::size_t(0),
+        count,
         [&](std::size_t i) { this->Places[i] = from_morton(order[i].number); });
 
       this->allocate();
@@ -114,8 +119,11 @@ SparseVoxels::SparseVoxels(VoxelType type, double background, const SparseTopolo
       {
         bricks[axis] = ((this->Dims[axis] - 1) >> brick_shift) + 1;
       }
-      this->Table = SparseTable(bricks, this->Places,
-        static_cast<std::int32_t>(1 + this->TileSlots), this->Tiles, this->PoolBytes);
+      this->Table = SparseTable(bricks,
+        this->Places,
+        static_cast<std::int32_t>(1 + this->TileSlots),
+        this->Tiles,
+        this->PoolBytes);
 
       this->fill_constant(0, background);
       for (std::size_t i = 0; i < values.size(); ++i)
@@ -123,9 +131,9 @@ SparseVoxels::SparseVoxels(VoxelType type, double background, const SparseTopolo
         this->fill_constant(1 + i, values[i]);
       }
       const std::size_t brick_bytes = brick_voxels * size_of(type);
-      char* first =
-        static_cast<char*>(this->Pool.get()) + (1 + this->TileSlots) * brick_bytes;
-      tbb::parallel_for(std::size_t(0), count,
+      char* first = static_cast<char*>(this->Pool.get()) + (1 + this->TileSlots) * brick_bytes;
+      tbb::parallel_for(std::size_t(0),
+        count,
         [&](std::size_t i) { fill(order[i].index, first + i * brick_bytes); });
     });
   this->Background = this->value_in_slot(0, 0);
@@ -169,7 +177,8 @@ void SparseVoxels::settle_box(const SparseTopology& topology)
     if (bricks > most_bricks || std::abs(std::int64_t(first[axis])) >= (std::int64_t(1) << 28))
     {
       throw std::invalid_argument("the box around the sparse grid is wider than " +
-        std::to_string(std::int64_t(most_bricks) << brick_shift) + " voxels");
+                                  std::to_string(std::int64_t(most_bricks) << brick_shift) +
+                                  " voxels");
     }
     this->Origin[axis] = (first[axis] - 1) * brick_edge;
     this->First[axis] = brick_edge - 1;
@@ -202,9 +211,10 @@ std::vector<double> SparseVoxels::settle_tiles(const SparseTopology& topology)
       box.first[axis] = tile.first[axis] - (this->Origin[axis] >> brick_shift);
       box.last[axis] = tile.last[axis] - (this->Origin[axis] >> brick_shift);
     }
-    const std::size_t at = std::isnan(tile.value)
-      ? values.size() - 1
-      : std::lower_bound(values.begin(), values.end() - any_nan, tile.value) - values.begin();
+    const std::size_t at =
+      std::isnan(tile.value)
+        ? values.size() - 1
+        : std::lower_bound(values.begin(), values.end() - any_nan, tile.value) - values.begin();
     box.slot = static_cast<std::int32_t>(1 + at);
     this->Tiles.push_back(box);
   }
@@ -217,8 +227,7 @@ void SparseVoxels::allocate()
   // Whole large pages: fewer faults while it is filled, fewer misses while it is read.
   constexpr std::size_t large_page = std::size_t(1) << 21;
   const std::size_t bricks = this->TileSlots + 1 + this->Places.size();
-  const std::size_t need =
-    bricks * brick_voxels * size_of(this->Type) + sizeof(std::uint32_t);
+  const std::size_t need = bricks * brick_voxels * size_of(this->Type) + sizeof(std::uint32_t);
   const std::size_t alignment = need >= 4 * large_page ? large_page : 64;
   this->PoolBytes = (need + alignment - 1) / alignment * alignment;
   this->Pool.reset(std::aligned_alloc(alignment, this->PoolBytes));
@@ -232,8 +241,8 @@ void SparseVoxels::allocate()
     madvise(this->Pool.get(), this->PoolBytes, MADV_HUGEPAGE); // a wish; nothing hangs on it
   }
 #endif
-  std::memset(static_cast<char*>(this->Pool.get()) + need - sizeof(std::uint32_t), 0,
-    sizeof(std::uint32_t));
+  std::memset(
+    static_cast<char*>(this->Pool.get()) + need - sizeof(std::uint32_t), 0, sizeof(std::uint32_t));
 }
 
 void SparseVoxels::fill_constant(std::size_t slot, double value)
@@ -275,16 +284,14 @@ double SparseVoxels::value(std::int32_t i, std::int32_t j, std::int32_t k) const
   {
     return this->Background;
   }
-  const std::int32_t slot =
-    this->Table.slot(i >> brick_shift, j >> brick_shift, k >> brick_shift);
-  return this->value_in_slot(
-    static_cast<std::size_t>(slot), (k & 7) << 6 | (j & 7) << 3 | (i & 7));
+  const std::int32_t slot = this->Table.slot(i >> brick_shift, j >> brick_shift, k >> brick_shift);
+  return this->value_in_slot(static_cast<std::size_t>(slot), (k & 7) << 6 | (j & 7) << 3 | (i & 7));
 }
 
 std::size_t SparseVoxels::memory_bytes() const
 {
   return sizeof(*this) + this->PoolBytes + this->Table.memory_bytes() +
-    this->Places.capacity() * sizeof(BrickPlace) + this->Tiles.capacity() * sizeof(BrickBox);
+         this->Places.capacity() * sizeof(BrickPlace) + this->Tiles.capacity() * sizeof(BrickBox);
 }
 
 Grid SparseVoxels::grid() const

@@ -31,11 +31,12 @@ struct SparseTopology
   std::vector<SparseTile> tiles;
 };
 
-/// Voxels of one component in bricks of 8³ without an apron, in their own type, each brick once, and
-/// a table that finds them (SparseTable). Where there is no brick every voxel is the background.
+/// Voxels of one component in bricks of 8³ without an apron, in their own type, each brick once,
+/// and a table that finds them (SparseTable). Where there is no brick every voxel is the
+/// background.
 ///
-/// Memory: the bricks, and a table that grows with them and hardly with the box around them. Tiles of
-/// one value share one brick.
+/// Memory: the bricks, and a table that grows with them and hardly with the box around them. Tiles
+/// of one value share one brick.
 ///
 /// Index space begins a brick before the first one, so that there is background around all that is
 /// stored: voxel (0, 0, 0) is the source's voxel origin(). The grid reaches from first() (one voxel
@@ -67,7 +68,10 @@ public:
   /// has processors). Values of tiles and the background are rounded to the type.
   /// Throws std::invalid_argument for a topology that is empty, overlaps itself or is wider than
   /// most_bricks, std::length_error for more than 2³¹ bricks or table entries.
-  SparseVoxels(VoxelType type, double background, const SparseTopology& topology, const Fill& fill,
+  SparseVoxels(VoxelType type,
+    double background,
+    const SparseTopology& topology,
+    const Fill& fill,
     int threads = 0);
   ~SparseVoxels();
   SparseVoxels(const SparseVoxels&) = delete;

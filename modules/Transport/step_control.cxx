@@ -27,8 +27,9 @@ namespace
 /// none: the whole view then.
 glm::dmat4 zoomed_to_grid(const Scene& scene)
 {
-  const glm::dmat4 clip_from_index =
-    scene.camera.clip_from_world * scene.volumes[0].world_from_data * scene.volumes[0].data_from_index;
+  const glm::dmat4 clip_from_index = scene.camera.clip_from_world *
+                                     scene.volumes[0].world_from_data *
+                                     scene.volumes[0].data_from_index;
   glm::dvec2 lower(1e300);
   glm::dvec2 upper(-1e300);
   for (int corner = 0; corner < 8; ++corner)
@@ -36,7 +37,8 @@ glm::dmat4 zoomed_to_grid(const Scene& scene)
     glm::dvec4 place(0.0, 0.0, 0.0, 1.0);
     for (int axis = 0; axis < 3; ++axis)
     {
-      place[axis] = (corner >> axis) & 1 ? scene.volumes[0].grid.upper(axis) : scene.volumes[0].grid.lower(axis);
+      place[axis] = (corner >> axis) & 1 ? scene.volumes[0].grid.upper(axis)
+                                         : scene.volumes[0].grid.lower(axis);
     }
     const glm::dvec4 clip = clip_from_index * place;
     if (!(clip.w > 0.0))

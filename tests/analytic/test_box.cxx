@@ -33,7 +33,8 @@ Stretch stretch(const Scene& scene, const View& view, const glm::dvec3& spacing,
   for (int axis = 0; axis < 3; ++axis)
   {
     const long double half =
-      0.5L * (scene.volumes[0].grid.upper(axis) - scene.volumes[0].grid.lower(axis)) * spacing[axis];
+      0.5L * (scene.volumes[0].grid.upper(axis) - scene.volumes[0].grid.lower(axis)) *
+      spacing[axis];
     const long double d = to[axis] - from[axis];
     if (d == 0.0L)
     {
@@ -55,7 +56,8 @@ Stretch stretch(const Scene& scene, const View& view, const glm::dvec3& spacing,
   for (int axis = 0; axis < 3; ++axis)
   {
     const long double d = to[axis] - from[axis];
-    const long double centre = 0.5L * (scene.volumes[0].grid.upper(axis) + scene.volumes[0].grid.lower(axis));
+    const long double centre =
+      0.5L * (scene.volumes[0].grid.upper(axis) + scene.volumes[0].grid.lower(axis));
     result.begin[axis] = centre + (from[axis] + s0 * d) / spacing[axis];
     result.end[axis] = centre + (from[axis] + s1 * d) / spacing[axis];
     result.length += d * (s1 - s0) * d * (s1 - s0);
@@ -135,7 +137,8 @@ double diagonal_of(const Scene& scene, const glm::dvec3& spacing)
   glm::dvec3 d;
   for (int axis = 0; axis < 3; ++axis)
   {
-    d[axis] = (scene.volumes[0].grid.upper(axis) - scene.volumes[0].grid.lower(axis)) * spacing[axis];
+    d[axis] =
+      (scene.volumes[0].grid.upper(axis) - scene.volumes[0].grid.lower(axis)) * spacing[axis];
   }
   return glm::length(d);
 }
@@ -182,7 +185,8 @@ TYPED_TEST(DensityBox, TransmittanceIsBeerLambert)
           scene.camera = view.camera(double(width) / height);
           for (double depth : depths)
           {
-            scene.volumes[0].density.extinction = depth / (most * diagonal_of(scene, place.spacing));
+            scene.volumes[0].density.extinction =
+              depth / (most * diagonal_of(scene, place.spacing));
             const auto tau = [&](int x, int y) -> long double
             {
               const Stretch s = stretch(scene, view, place.spacing, x, y);
@@ -227,14 +231,15 @@ TEST(DensityBox, AThinBoxIsRightToTheFilmsLastDigit)
   scene.camera = view.camera(double(width) / height);
   for (double depth : { 1e-6, 1e-5, 1e-3 })
   {
-    scene.volumes[0].density.extinction = depth / (ramp.first * diagonal_of(scene, glm::dvec3(1.0)));
+    scene.volumes[0].density.extinction =
+      depth / (ramp.first * diagonal_of(scene, glm::dvec3(1.0)));
     const Film film = march(scene, width, height, 0.5);
     for (int y = 0; y < height; ++y)
     {
       for (int x = 0; x < width; ++x)
       {
-        const long double tau =
-          scene.volumes[0].density.extinction * ramp.first * stretch(scene, view, glm::dvec3(1.0), x, y).length;
+        const long double tau = scene.volumes[0].density.extinction * ramp.first *
+                                stretch(scene, view, glm::dvec3(1.0), x, y).length;
         EXPECT_NEAR(
           1.0 - film.transmittance[0][y * width + x], static_cast<double>(-std::expm1(-tau)), 3.1e-8);
       }
@@ -259,7 +264,10 @@ TEST(DensityBox, CellsReachHalfAVoxelFarther)
     scene.camera = view.camera(double(width) / height);
     scene.volumes[0].density.extinction = 5.0 / (ramp.first * diagonal_of(scene, spacing));
     const auto tau = [&](int x, int y)
-    { return scene.volumes[0].density.extinction * ramp.first * stretch(scene, view, spacing, x, y).length; };
+    {
+      return scene.volumes[0].density.extinction * ramp.first *
+             stretch(scene, view, spacing, x, y).length;
+    };
     for (double step : { 0.1, 0.7, 100.0 })
     {
       EXPECT_LE(worst_transmittance(march(scene, width, height, step), tau), 1e-5) << step;
@@ -304,8 +312,9 @@ TEST(Reference, IsBeerLambertForBoxesAndRamps)
         scene.camera = view.camera(double(width) / height);
         for (double depth : { 1e-6, 1.0, 18.0 })
         {
-          const double most =
-            axis < 0 ? ramp.first : ramp.first + ramp.slope * (scene.volumes[0].grid.dims[axis] - 1);
+          const double most = axis < 0
+                                ? ramp.first
+                                : ramp.first + ramp.slope * (scene.volumes[0].grid.dims[axis] - 1);
           scene.volumes[0].density.extinction = depth / (most * diagonal_of(scene, place.spacing));
           const auto tau = [&](int x, int y) -> long double
           {

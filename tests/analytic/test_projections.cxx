@@ -32,9 +32,12 @@ struct ProductScene
     Volume& volume = scene.volumes[0];
     volume.grid = voxels.grid();
     volume.data_from_index = placed(glm::dvec3(1.0, 1.5, 0.7), glm::dvec3(-3.0, 10.0, 2.0));
-    volume.classification = classify(lower, upper,
+    volume.classification = classify(
+      lower,
+      upper,
       [this](double v) { return 0.1 + 0.8 * grey(v); },
-      [this](double v) { return colour_of(grey(v)); }, 3);
+      [this](double v) { return colour_of(grey(v)); },
+      3);
     volume.grey_range[0] = lower;
     volume.grey_range[1] = upper;
     view = view_of(scene, glm::dvec3(0.7, -0.5, -0.9), parallel);
@@ -160,7 +163,10 @@ struct Ramp
     Volume& volume = scene.volumes[0];
     volume.grid = voxels.grid();
     volume.data_from_index = placed(glm::dvec3(1.0, 1.0, 0.5), glm::dvec3(-5.0, 2.0, 40.0));
-    volume.classification = classify(0.0, 90.0, [](double v) { return 0.8 * v / 90.0; },
+    volume.classification = classify(
+      0.0,
+      90.0,
+      [](double v) { return 0.8 * v / 90.0; },
       [](double) { return glm::dvec3(0.3, 0.6, 0.9); });
     volume.grey_range[1] = 90.0;
     View view = view_of(scene, glm::dvec3(0, 0, -1), true);
@@ -179,7 +185,8 @@ TEST(Projections, TheMeanIsOfTheValuesInItsRange)
 {
   Ramp ramp(BlendMode::AverageIntensity);
   // The mean of 0.8 n² for n from a to b.
-  const auto mean = [](double a, double b) { return 0.8 * (b * b * b - a * a * a) / 3.0 / (b - a); };
+  const auto mean = [](double a, double b)
+  { return 0.8 * (b * b * b - a * a * a) / 3.0 / (b - a); };
   EXPECT_NEAR(ramp.grey(), mean(0.0, 1.0), 1e-5);
   ramp.scene.average_range[0] = 31.0;
   ramp.scene.average_range[1] = 64.5;
@@ -213,8 +220,10 @@ TEST(Projections, TheSumOfARampEndsAtWhite)
 // Samples at a fixed step approach the same picture, from VTK's places too.
 TEST(Projections, AFixedStepApproachesTheReference)
 {
-  for (BlendMode mode : { BlendMode::MaximumIntensity, BlendMode::MinimumIntensity,
-         BlendMode::AverageIntensity, BlendMode::Additive })
+  for (BlendMode mode : { BlendMode::MaximumIntensity,
+         BlendMode::MinimumIntensity,
+         BlendMode::AverageIntensity,
+         BlendMode::Additive })
   {
     ProductScene s;
     s.scene.blend_mode = mode;
@@ -249,8 +258,12 @@ TEST(Projections, ComponentsAreWeightedAndAddUp)
     volume.grid.component = c;
     volume.grid.dims[0] = volume.grid.dims[1] = 4;
     volume.grid.dims[2] = 11;
-    volume.classification = classify(0.0, 100.0, [](double v) { return v / 100.0; },
-      [=](double) { return c == 0 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0); }, 2);
+    volume.classification = classify(
+      0.0,
+      100.0,
+      [](double v) { return v / 100.0; },
+      [=](double) { return c == 0 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0); },
+      2);
     volume.grey_range[1] = 100.0;
     volume.classification.unit_distance = 20.0;
   }
@@ -278,13 +291,21 @@ TEST(Projections, NonFiniteVoxelsAreNeverTheExtreme)
 {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float infinity = std::numeric_limits<float>::infinity();
-  Voxels<float> voxels(5, 5, 5, [=](int i, int j, int k)
-    { return i == 2 && j == 2 ? (k == 1 ? nan : k == 3 ? infinity : 30.0f) : 20.0f + 2.0f * k; });
+  Voxels<float> voxels(5,
+    5,
+    5,
+    [=](int i, int j, int k) {
+      return i == 2 && j == 2 ? (k == 1 ? nan : k == 3 ? infinity : 30.0f) : 20.0f + 2.0f * k;
+    });
   Scene scene;
   scene.volumes[0].grid = voxels.grid();
   // The value that is transparent, and so stands for empty elsewhere, is the largest.
-  scene.volumes[0].classification = classify(0.0, 100.0, [](double v) { return 1.0 - v / 100.0; },
-    [](double v) { return glm::dvec3(v / 100.0); }, 2);
+  scene.volumes[0].classification = classify(
+    0.0,
+    100.0,
+    [](double v) { return 1.0 - v / 100.0; },
+    [](double v) { return glm::dvec3(v / 100.0); },
+    2);
   scene.camera = view_of(scene, glm::dvec3(0, 0, -1), true).camera(1.0);
   scene.blend_mode = BlendMode::MaximumIntensity;
   EXPECT_NEAR(reference(scene, 3, 3).radiance[0][4], 0.3 * 0.7, 1e-6);

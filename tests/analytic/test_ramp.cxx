@@ -33,9 +33,10 @@ struct RampAlongZ
   RampAlongZ()
   {
     scene.volumes[0].grid = voxels.grid();
-    scene.volumes[0].data_from_index = placed(glm::dvec3(1.0, 1.0, 0.5), glm::dvec3(-5.0, 2.0, 40.0));
-    scene.volumes[0].classification = classify(0.0, 90.0, opacity_of,
-      [](double v) { return glm::dvec3(colour_of(v), 1.0, 0.25); });
+    scene.volumes[0].data_from_index =
+      placed(glm::dvec3(1.0, 1.0, 0.5), glm::dvec3(-5.0, 2.0, 40.0));
+    scene.volumes[0].classification =
+      classify(0.0, 90.0, opacity_of, [](double v) { return glm::dvec3(colour_of(v), 1.0, 0.25); });
     scene.volumes[0].classification.unit_distance = 1.7;
     View view = view_of(scene, glm::dvec3(0, 0, -1), true);
     view.half_height = 2.0;

@@ -17,8 +17,8 @@ TEST(Shading, OfARampIsTheFormula)
   Scene scene;
   scene.volumes[0].grid = voxels.grid();
   scene.volumes[0].data_from_index = placed(glm::dvec3(0.5, 2.0, 1.0), glm::dvec3(0.0));
-  scene.volumes[0].classification = classify(0.0, 80.0, [](double) { return 0.5; },
-    [](double) { return glm::dvec3(0.4, 0.8, 1.0); }, 3);
+  scene.volumes[0].classification = classify(
+    0.0, 80.0, [](double) { return 0.5; }, [](double) { return glm::dvec3(0.4, 0.8, 1.0); }, 3);
   scene.camera = view_of(scene, glm::dvec3(0, 0, -1), true).camera(1.0);
   scene.volumes[0].shading.enabled = true;
   scene.volumes[0].shading.ambient = 0.15;

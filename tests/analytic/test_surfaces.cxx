@@ -99,16 +99,17 @@ struct Ball
 {
   static constexpr int n = 49;
   static constexpr double radius = 17.0;
-  Voxels<float> voxels{ n, n, n, [](int i, int j, int k)
-    { return glm::length(glm::dvec3(i - 24, j - 24, k - 24)); } };
+  Voxels<float> voxels{ n, n, n, [](int i, int j, int k) {
+                         return glm::length(glm::dvec3(i - 24, j - 24, k - 24));
+                       } };
   Scene scene;
   View view;
 
   Ball()
   {
     scene.volumes[0].grid = voxels.grid();
-    scene.volumes[0].classification = classify(0.0, 40.0, [](double) { return 1.0; },
-      [](double) { return glm::dvec3(0.8, 0.6, 0.4); }, 2);
+    scene.volumes[0].classification = classify(
+      0.0, 40.0, [](double) { return 1.0; }, [](double) { return glm::dvec3(0.8, 0.6, 0.4); }, 2);
     view = view_of(scene, glm::dvec3(0, 0, -1), true);
     scene.camera = view.camera(1.0);
     scene.blend_mode = BlendMode::Isosurface;
@@ -200,8 +201,8 @@ TEST(Isosurfaces, OfNearestVoxelsLieBetweenThem)
   Scene scene;
   scene.volumes[0].grid = voxels.grid();
   scene.volumes[0].grid.linear = false;
-  scene.volumes[0].classification = classify(0.0, 100.0, [](double) { return 1.0; },
-    [](double v) { return glm::dvec3(v / 100.0); }, 2);
+  scene.volumes[0].classification = classify(
+    0.0, 100.0, [](double) { return 1.0; }, [](double v) { return glm::dvec3(v / 100.0); }, 2);
   const View view = view_of(scene, glm::dvec3(0, 0, -1), true);
   scene.camera = view.camera(1.0);
   scene.blend_mode = BlendMode::Isosurface;
@@ -236,8 +237,12 @@ TEST(Slice, IsTheClassifiedPlane)
   Volume& volume = scene.volumes[0];
   volume.grid = voxels.grid();
   volume.data_from_index = placed(glm::dvec3(1.0, 1.5, 0.7), glm::dvec3(-3.0, 10.0, 2.0));
-  volume.classification = classify(-100.0, 100.0, [](double v) { return 0.5 + 0.004 * v; },
-    [](double v) { return glm::dvec3(0.5 + 0.005 * v); }, 2);
+  volume.classification = classify(
+    -100.0,
+    100.0,
+    [](double v) { return 0.5 + 0.004 * v; },
+    [](double v) { return glm::dvec3(0.5 + 0.005 * v); },
+    2);
   const View view = view_of(scene, glm::dvec3(0.7, -0.5, -0.9), false);
   scene.camera = view.camera(1.0);
   scene.blend_mode = BlendMode::Slice;

@@ -116,7 +116,8 @@ TEST(Cropping, RegionsAreWhereTheirBitsSay)
       volume.cropping.upper[axis] = 7.9 - 0.7 * axis;
     }
     const View view = view_of(scene,
-      glm::dvec3(0.3 + 0.1 * trial, -0.6 + 0.15 * trial, trial % 2 ? -1.0 : 0.8), trial % 3 == 0);
+      glm::dvec3(0.3 + 0.1 * trial, -0.6 + 0.15 * trial, trial % 2 ? -1.0 : 0.8),
+      trial % 3 == 0);
     scene.camera = view.camera(1.0);
     const Film film = reference(scene, edge, edge);
     for_each_pixel(
@@ -131,8 +132,8 @@ TEST(Cropping, RegionsAreWhereTheirBitsSay)
           int region = 0;
           for (int axis = 0, factor = 1; axis < 3; ++axis, factor *= 3)
           {
-            region += factor *
-              ((p[axis] >= volume.cropping.lower[axis]) + (p[axis] > volume.cropping.upper[axis]));
+            region += factor * ((p[axis] >= volume.cropping.lower[axis]) +
+                                 (p[axis] > volume.cropping.upper[axis]));
           }
           drawn += volume.cropping.regions >> region & 1;
         }
@@ -153,7 +154,10 @@ TEST(Cropping, PartsOfAVolumeAddUpToIt)
   Volume& volume = whole.volumes[0];
   volume.grid = voxels.grid();
   volume.data_from_index = placed(glm::dvec3(1.0, 1.5, 0.7), glm::dvec3(-3.0, 10.0, 2.0));
-  volume.classification = classify(-100.0, 100.0, [](double v) { return 0.2 + 0.0015 * v; },
+  volume.classification = classify(
+    -100.0,
+    100.0,
+    [](double v) { return 0.2 + 0.0015 * v; },
     [](double v) { return glm::dvec3(0.5 + 0.005 * v, 0.5, 0.5 - 0.005 * v); });
   whole.camera = view_of(whole, glm::dvec3(0.7, -0.5, -0.9), false).camera(1.0);
   volume.shading.enabled = true;
@@ -255,8 +259,10 @@ TEST(Masks, HideHalfWayBetweenVoxels)
   }
   BlockAlongX b;
   b.scene.volumes[0].mask.classification_of_label.fill(Mask::hidden);
-  for (BlendMode mode : { BlendMode::Composite, BlendMode::MaximumIntensity,
-         BlendMode::AverageIntensity, BlendMode::Additive })
+  for (BlendMode mode : { BlendMode::Composite,
+         BlendMode::MaximumIntensity,
+         BlendMode::AverageIntensity,
+         BlendMode::Additive })
   {
     b.scene.blend_mode = mode;
     const Film film = reference(b.scene, 3, 3);
@@ -286,8 +292,10 @@ TEST(Masks, LabelsHaveFunctionsOfTheirOwn)
   const glm::dvec3 base(0.2, 0.4, 0.6);
   double passes = 1.0;
   glm::dvec3 radiance(0.0);
-  for (const Slab& slab : { Slab{ 0.5, sigma(0.1), base }, Slab{ 1.0, sigma(0.5) / 3.0, { 0, 1, 0 } },
-         Slab{ 1.0, sigma(0.3), { 1, 0, 0 } }, Slab{ 4.5, sigma(0.1), base } })
+  for (const Slab& slab : { Slab{ 0.5, sigma(0.1), base },
+         Slab{ 1.0, sigma(0.5) / 3.0, { 0, 1, 0 } },
+         Slab{ 1.0, sigma(0.3), { 1, 0, 0 } },
+         Slab{ 4.5, sigma(0.1), base } })
   {
     const double through = std::exp(-slab.extinction * slab.length);
     radiance += slab.colour * (passes * (1.0 - through));
@@ -303,8 +311,14 @@ TEST(Masks, LabelsHaveFunctionsOfTheirOwn)
 /// A smooth solid with slopes of every size.
 struct Bump
 {
-  Voxels<std::uint16_t> voxels{ 17, 15, 16, [](int i, int j, int k)
-    { return 1000.0 * std::exp(-0.03 * (std::pow(i - 8, 2) + std::pow(j - 7, 2) + std::pow(k - 7, 2))); } };
+  Voxels<std::uint16_t> voxels{ 17,
+    15,
+    16,
+    [](int i, int j, int k)
+    {
+      return 1000.0 *
+             std::exp(-0.03 * (std::pow(i - 8, 2) + std::pow(j - 7, 2) + std::pow(k - 7, 2)));
+    } };
   Scene scene;
 
   Bump()
@@ -326,7 +340,9 @@ TEST(ValueAndGradient, OfTheValueAloneIsTheFunctionOfTheValue)
 {
   Bump one;
   const glm::dvec3 scale = one.scene.volumes[0].classification.gradient_scale;
-  one.scene.volumes[0].classification = classify(0.0, 1000.0, opacity_of,
+  one.scene.volumes[0].classification = classify(0.0,
+    1000.0,
+    opacity_of,
     [](double v) { return glm::dvec3(v / 1000.0, 1.0 - v / 1000.0, 0.5); });
   Bump two;
   Classification& c = two.scene.volumes[0].classification;
@@ -362,7 +378,8 @@ TEST(ValueAndGradient, OfTheGradientAloneIsAGradientOpacity)
   Bump one;
   Classification& c = one.scene.volumes[0].classification;
   const glm::dvec3 scale = c.gradient_scale;
-  c = classify(0.0, 1000.0, [](double) { return 0.5; }, [](double) { return glm::dvec3(0.7); }, 2);
+  c = classify(
+    0.0, 1000.0, [](double) { return 0.5; }, [](double) { return glm::dvec3(0.7); }, 2);
   c.gradient_scale = scale;
   c.gradient_upper = 120.0;
   for (int i = 0; i <= 4000; ++i)
@@ -374,8 +391,22 @@ TEST(ValueAndGradient, OfTheGradientAloneIsAGradientOpacity)
   d.upper = 1000.0;
   d.gradient_upper = 120.0;
   d.value_gradient_width = 2;
-  d.value_gradient = { 0.7, 0.7, 0.7, 0.0, 0.7, 0.7, 0.7, 0.0, // magnitude 0
-    0.7, 0.7, 0.7, 0.5, 0.7, 0.7, 0.7, 0.5 };
+  d.value_gradient = { 0.7,
+    0.7,
+    0.7,
+    0.0,
+    0.7,
+    0.7,
+    0.7,
+    0.0, // magnitude 0
+    0.7,
+    0.7,
+    0.7,
+    0.5,
+    0.7,
+    0.7,
+    0.7,
+    0.5 };
   const Film a = reference(one.scene, edge, edge);
   EXPECT_LT(difference(a, reference(two.scene, edge, edge)), 1e-5);
   EXPECT_LT(*std::min_element(a.transmittance[0].begin(), a.transmittance[0].end()), 0.7f);
@@ -399,8 +430,12 @@ TEST(Components, OneIsTheValueAndOneTheColour)
   volume.grid.colour = VoxelColour::First;
   volume.grid.dims[0] = volume.grid.dims[1] = 4;
   volume.grid.dims[2] = 11;
-  volume.classification = classify(-100.0, 100.0, [](double v) { return v < 0.0 ? 0.2 : 0.0; },
-    [](double v) { return glm::dvec3(v / 100.0); }, 2001);
+  volume.classification = classify(
+    -100.0,
+    100.0,
+    [](double v) { return v < 0.0 ? 0.2 : 0.0; },
+    [](double v) { return glm::dvec3(v / 100.0); },
+    2001);
   scene.camera = view_of(scene, glm::dvec3(0, 0, -1), true).camera(1.0);
   const Film film = reference(scene, 3, 3);
   const double s = sigma(0.2);

@@ -38,8 +38,8 @@ float fetch_target(const FetchTrace& trace)
     words = hn::Add(words, hn::GatherOffset(ints, voxels, behind));
     words = hn::Add(words, hn::GatherOffset(ints, voxels, hn::Add(behind, row)));
     const auto node = hn::LoadU(ints, trace.nodes.data() + i);
-    const auto depth = hn::Add(
-      hn::GatherIndex(floats, table + 3, node), hn::GatherIndex(floats, table + 7, node));
+    const auto depth =
+      hn::Add(hn::GatherIndex(floats, table + 3, node), hn::GatherIndex(floats, table + 7, node));
     if (!hn::AllFalse(floats, hn::Gt(depth, hn::Zero(floats))))
     {
       for (int channel = 0; channel < 3; ++channel)
@@ -93,8 +93,11 @@ struct Ray
   float at = 0.0f;
 };
 
-Ray make_ray(const glm::dmat4& index_from_clip, const brume::Volume& volume, double step,
-  double ndc_x, double ndc_y)
+Ray make_ray(const glm::dmat4& index_from_clip,
+  const brume::Volume& volume,
+  double step,
+  double ndc_x,
+  double ndc_y)
 {
   const auto place = [&](double z)
   {
@@ -135,14 +138,15 @@ struct Recorder
   /// Steps to the first place outside the invisible surroundings; 0 in a visible brick.
   float leap(const glm::vec3& place, const glm::vec3& delta) const
   {
-    const int edge = brume::BrickRanges::edge;
+    const int edge = 1 << Bricks.shift;
     int brick[3];
     for (int axis = 0; axis < 3; ++axis)
     {
       brick[axis] = std::min(int(std::max(place[axis], 0.0f)) / edge, Bricks.dims[axis] - 1);
     }
-    const int distance = static_cast<int>(Bricks.distance[
-      (std::size_t(brick[2]) * Bricks.dims[1] + brick[1]) * Bricks.dims[0] + brick[0]]);
+    const int distance = static_cast<int>(
+      Bricks
+        .distance[(std::size_t(brick[2]) * Bricks.dims[1] + brick[1]) * Bricks.dims[0] + brick[0]]);
     if (distance == 0)
     {
       return 0.0f;
@@ -150,8 +154,8 @@ struct Recorder
     float way = 1e30f;
     for (int axis = 0; axis < 3; ++axis)
     {
-      const float face = float(edge * (delta[axis] > 0.0f ? brick[axis] + distance
-                                                          : brick[axis] - distance + 1));
+      const float face =
+        float(edge * (delta[axis] > 0.0f ? brick[axis] + distance : brick[axis] - distance + 1));
       if (delta[axis] != 0.0f)
       {
         way = std::min(way, (face - place[axis]) / delta[axis]);
@@ -179,7 +183,7 @@ struct Recorder
     {
       const int x = corner & 1, y = corner >> 1 & 1, z = corner >> 2;
       value += Voxels[first + x + y * row + z * slice] * (x ? f[0] : 1 - f[0]) *
-        (y ? f[1] : 1 - f[1]) * (z ? f[2] : 1 - f[2]);
+               (y ? f[1] : 1 - f[1]) * (z ? f[2] : 1 - f[2]);
     }
     const double position = (value - Volume.classification.lower) * Scale;
     Trace.cells.push_back(static_cast<std::int32_t>(2 * first));
@@ -256,14 +260,16 @@ FetchTrace record_fetches(const brume::Scene& scene, int width, int height, doub
         return false;
       },
       0.0f),
-    static_cast<const std::uint16_t*>(volume.grid.voxels), scale, {} };
+    static_cast<const std::uint16_t*>(volume.grid.voxels),
+    scale,
+    {} };
   recorder.Trace.voxels = static_cast<const std::uint8_t*>(volume.grid.voxels);
   recorder.Trace.row = 2 * volume.grid.dims[0];
   recorder.Trace.slice = recorder.Trace.row * volume.grid.dims[1];
   recorder.Trace.table = table;
 
-  const glm::dmat4 index_from_clip = glm::inverse(
-    scene.camera.clip_from_world * volume.world_from_data * volume.data_from_index);
+  const glm::dmat4 index_from_clip =
+    glm::inverse(scene.camera.clip_from_world * volume.world_from_data * volume.data_from_index);
   const int lanes = HWY_DYNAMIC_DISPATCH(lanes_target)();
   const int packet_width = lanes >= 8 ? 4 : lanes >= 2 ? 2 : 1;
   const int packet_height = lanes / packet_width;
@@ -277,10 +283,12 @@ FetchTrace record_fetches(const brume::Scene& scene, int width, int height, doub
           {
             const int px = x + lane % packet_width;
             const int py = y + lane / packet_width;
-            rays[lane] = px < width && py < height
-              ? make_ray(index_from_clip, volume, step, (2.0 * px + 1.0) / width - 1.0,
-                  (2.0 * py + 1.0) / height - 1.0)
-              : Ray();
+            rays[lane] = px < width && py < height ? make_ray(index_from_clip,
+                                                       volume,
+                                                       step,
+                                                       (2.0 * px + 1.0) / width - 1.0,
+                                                       (2.0 * py + 1.0) / height - 1.0)
+                                                   : Ray();
           }
           recorder.march(rays);
         }

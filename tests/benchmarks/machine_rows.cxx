@@ -97,7 +97,9 @@ void add_machine_rows(Scenes& scenes, std::vector<Row>& rows)
       threads->ceilings.push_back(arithmetic_speed_up(scenes.options().quick));
     }
     char text[80];
-    std::snprintf(text, sizeof(text), "arithmetic in registers alone gains %.3g× by a second thread",
+    std::snprintf(text,
+      sizeof(text),
+      "arithmetic in registers alone gains %.3g× by a second thread",
       median(threads->ceilings));
     self.remark(text);
   };
@@ -133,9 +135,11 @@ void add_machine_rows(Scenes& scenes, std::vector<Row>& rows)
     const double seconds = run_fetches(fetches->trace);
     self.other = "4 pairs of voxels and up to 8 table entries a sample, by recorded addresses";
     char text[160];
-    std::snprintf(text, sizeof(text),
+    std::snprintf(text,
+      sizeof(text),
       "%.3g M samples, the loop %.3g M; it makes %.3g M fetches of one lane a second",
-      samples * 1e-6, fetches->trace.samples * 1e-6,
+      samples * 1e-6,
+      fetches->trace.samples * 1e-6,
       12.0 * fetches->trace.samples * 1e-6 / seconds);
     self.remark(text);
   };

@@ -179,9 +179,13 @@ int main(int argc, char** argv)
   if (!json.empty())
   {
     const brume::Machine machine = brume::app::this_machine(options.threads, {});
-    nlohmann::json all{ { "date", brume::app::utc_now() }, { "quick", options.quick },
-      { "threads", options.threads }, { "resolution", options.resolution },
-      { "processor", machine.cpu }, { "vtk", machine.vtk_version }, { "rows", benchmarks::to_json(told) } };
+    nlohmann::json all{ { "date", brume::app::utc_now() },
+      { "quick", options.quick },
+      { "threads", options.threads },
+      { "resolution", options.resolution },
+      { "processor", machine.cpu },
+      { "vtk", machine.vtk_version },
+      { "rows", benchmarks::to_json(told) } };
     std::ofstream file(json);
     file << all.dump(2) << '\n';
     if (!file.flush())

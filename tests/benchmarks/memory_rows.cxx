@@ -84,8 +84,11 @@ double common_step(const Sparse& sparse)
 }
 
 template <class T>
-void add_sparse_rows(
-  Scenes& scenes, std::vector<Row>& rows, const char* type, int vtk_type, double largest)
+void add_sparse_rows(Scenes& scenes,
+  std::vector<Row>& rows,
+  const char* type,
+  int vtk_type,
+  double largest)
 {
   const Options& options = scenes.options();
   Row render;
@@ -108,11 +111,14 @@ void add_sparse_rows(
     const double coarse = sparse->small_scene->volume().voxel_edge;
     const auto own_step = [&](const Subject& subject)
     { return subject.statistics()["step"].get<double>() / coarse; };
-    self.other = "256³, the same balls sampled four times as coarsely, so that both show one picture";
+    self.other =
+      "256³, the same balls sampled four times as coarsely, so that both show one picture";
     char text[200];
-    std::snprintf(text, sizeof(text),
+    std::snprintf(text,
+      sizeof(text),
       "each at its own steps by the default tolerance: %.3g and %.3g of a 256³ voxel",
-      own_step(*sparse->large), own_step(*sparse->small));
+      own_step(*sparse->large),
+      own_step(*sparse->small));
     self.remark(text);
     Subject large(*sparse->large_scene, common_step(*sparse), threads);
     Subject small(*sparse->small_scene, common_step(*sparse), threads);
@@ -122,11 +128,11 @@ void add_sparse_rows(
       const double seconds = large.render();
       ratios.push_back(seconds / small.render());
     }
-    std::snprintf(text, sizeof(text), "with the same step, half a voxel of 256³: %.3g×",
-      median(ratios));
+    std::snprintf(
+      text, sizeof(text), "with the same step, half a voxel of 256³: %.3g×", median(ratios));
     self.remark(text);
     self.remark("the two pictures at that step differ by " +
-      in_words(brume::measure(large.picture(), small.picture())));
+                in_words(brume::measure(large.picture(), small.picture())));
   };
   render.repeat = [sparse]
   {
@@ -141,7 +147,8 @@ void add_sparse_rows(
   Row prepare;
   prepare.number = 13;
   prepare.name = std::string("sparse-prepare-") + type;
-  prepare.what = std::string("1024³ ") + type + ": bytes prepared a second, of those that are copied";
+  prepare.what =
+    std::string("1024³ ") + type + ": bytes prepared a second, of those that are copied";
   prepare.unit = "%";
   prepare.target = 50;
   prepare.repetitions = options.quick ? 1 : options.repetitions;
@@ -153,16 +160,19 @@ void add_sparse_rows(
     copied->large = std::make_unique<Subject>(
       *copied->large_scene, common_step(*copied), scenes.options().threads);
     copied->large->render();
-    self.other = "copying as many bytes from memory to memory with two threads, each byte counted once";
+    self.other =
+      "copying as many bytes from memory to memory with two threads, each byte counted once";
     const brume::app::VolumeScene& volume = copied->large_scene->volume();
     const brume::Scene* plain = copied->large->mapper()->UpdateScene(
       volume.volume, volume.camera, volume.lights, volume.width(), volume.height());
     const auto start = Clock::now();
     brume::measure_bricks(plain->volumes[0].grid, scenes.options().threads);
     char text[160];
-    std::snprintf(text, sizeof(text),
+    std::snprintf(text,
+      sizeof(text),
       "copied: %.3g GB a second; the ranges of bricks alone take %.3g s of the preparation",
-      copied->copied * 1e-9, seconds_since(start));
+      copied->copied * 1e-9,
+      seconds_since(start));
     self.remark(text);
   };
   prepare.repeat = [copied]
@@ -180,8 +190,11 @@ void add_sparse_rows(
 }
 
 template <class T>
-void add_beside_row(
-  Scenes& scenes, std::vector<Row>& rows, const char* type, int vtk_type, double largest)
+void add_beside_row(Scenes& scenes,
+  std::vector<Row>& rows,
+  const char* type,
+  int vtk_type,
+  double largest)
 {
   Row row;
   row.number = 14;
@@ -193,13 +206,14 @@ void add_beside_row(
   row.prepare = [=, &scenes](Row& self)
   {
     const int n = scenes.options().quick ? 48 : 256;
-    auto scene = scenes.of_balls(
-      bumpy_ball::image<T>(n, vtk_type, n - 1.0, { bumpy_ball::Ball() }, largest), largest, n - 1.0,
-      "ball");
+    auto scene =
+      scenes.of_balls(bumpy_ball::image<T>(n, vtk_type, n - 1.0, { bumpy_ball::Ball() }, largest),
+        largest,
+        n - 1.0,
+        "ball");
     scene->volume().volume->GetProperty()->ShadeOn();
     const double voxels = double(n) * n * n * sizeof(T);
-    const double picture =
-      8.0 * sizeof(float) * scene->volume().width() * scene->volume().height();
+    const double picture = 8.0 * sizeof(float) * scene->volume().width() * scene->volume().height();
     // One picture before, elsewhere, so that what the threads keep for themselves is there already.
     Subject(*scene, 0.5, scenes.options().threads).render();
     Subject subject(*scene, 0.5, scenes.options().threads);
@@ -209,10 +223,14 @@ void add_beside_row(
     const double kept = double(live_bytes()) - double(before);
     const double peak = double(peak_bytes()) - double(before);
     char text[240];
-    std::snprintf(text, sizeof(text),
+    std::snprintf(text,
+      sizeof(text),
       "most at any time %.3g MB, of that %.3g MB a second film of the picture while it is cleared; "
       "kept between pictures %.3g MB; the voxels %.3g MB",
-      peak * 1e-6, std::min(peak, picture) * 1e-6, kept * 1e-6, voxels * 1e-6);
+      peak * 1e-6,
+      std::min(peak, picture) * 1e-6,
+      kept * 1e-6,
+      voxels * 1e-6);
     self.remark(text);
     self.remark("operator new's bytes, shaded, the film itself not counted");
     self.measured.push_back({ 0.0, 0.0, 100.0 * peak / voxels });
@@ -236,8 +254,7 @@ void add_memory_rows(Scenes& scenes, std::vector<Row>& rows)
   sparse.unit = "bytes";
   sparse.target = 5;
   sparse.at_least = false;
-  sparse.prepare = [](Row&)
-  { throw Skipped("not supported: Brume has no sparse volumes yet"); };
+  sparse.prepare = [](Row&) { throw Skipped("not supported: Brume has no sparse volumes yet"); };
   rows.push_back(sparse);
 }
 

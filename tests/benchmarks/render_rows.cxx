@@ -78,8 +78,8 @@ bool find_tolerance(Subject& subject, Scene& scene, const ImageErrors& bound)
 void remark_subject(Row& row, const Subject& subject, const ImageErrors& errors)
 {
   const nlohmann::json& s = subject.statistics();
-  std::string words = "Brume: " + in_words(errors) + ", step " +
-    text("%.4g", s["step_in_voxels"]) + " voxels";
+  std::string words =
+    "Brume: " + in_words(errors) + ", step " + text("%.4g", s["step_in_voxels"]) + " voxels";
   if (s.value("step_chosen_by", "") == "tolerance")
   {
     words += " by a tolerance of " + text("%.3g", s["tolerance"]);
@@ -114,7 +114,7 @@ void prepare_pair(Pair& pair, const Options& options, const GetScene& get, Steps
       stock->render();
       const ImageErrors errors = brume::measure(stock->picture(), scene.truth());
       tried += (tried.empty() ? "" : ", ") + text("1/%.0f: ", 1.0 / step) +
-        text("%.3g", 255.0 * errors.largest);
+               text("%.3g", 255.0 * errors.largest);
       met = errors.largest <= default_tolerance;
       if (errors.largest < best)
       {
@@ -149,7 +149,8 @@ void prepare_pair(Pair& pair, const Options& options, const GetScene& get, Steps
   row.remark("Brume's preparation before a first picture: " + text("%.3g s", prepare));
   if (shaded)
   {
-    row.remark("both against Brume's shaded truth: the stock mapper's shading is defined differently");
+    row.remark(
+      "both against Brume's shaded truth: the stock mapper's shading is defined differently");
   }
 }
 
@@ -158,8 +159,8 @@ void prepare_pair(Pair& pair, const Options& options, const GetScene& get, Steps
 void add_render_rows(Scenes& scenes, std::vector<Row>& rows)
 {
   const Options& options = scenes.options();
-  const auto add = [&](int number, const char* name, const char* what, double target, GetScene get,
-                     Steps steps)
+  const auto add =
+    [&](int number, const char* name, const char* what, double target, GetScene get, Steps steps)
   {
     Row row;
     row.number = number;
@@ -174,7 +175,9 @@ void add_render_rows(Scenes& scenes, std::vector<Row>& rows)
     rows.push_back(row);
   };
   const auto ball = [&](bool shaded)
-  { return [&scenes, shaded]() -> Scene& { return scenes.ball(shaded); }; };
+  {
+    return [&scenes, shaded]() -> Scene& { return scenes.ball(shaded); };
+  };
   const auto brain = [&](bool shaded)
   {
     return [&scenes, shaded]() -> Scene&
@@ -187,20 +190,38 @@ void add_render_rows(Scenes& scenes, std::vector<Row>& rows)
     };
   };
   const auto head = [&](bool shaded)
-  { return [&scenes, shaded]() -> Scene& { return scenes.input("sample:head-ct", shaded); }; };
+  {
+    return [&scenes, shaded]() -> Scene& { return scenes.input("sample:head-ct", shaded); };
+  };
 
   add(1, "ball-own-steps", "ball, own steps, errors no larger", 10, ball(false), Steps::Own);
   add(2, "ball-half-voxel", "ball, ½ voxel both", 4, ball(false), Steps::Half);
-  add(3, "ball-shaded-own-steps", "ball shaded, own steps, errors no larger", 10, ball(true),
+  add(3,
+    "ball-shaded-own-steps",
+    "ball shaded, own steps, errors no larger",
+    10,
+    ball(true),
     Steps::Own);
   add(4, "ball-shaded-half-voxel", "ball shaded, ½ voxel both", 4, ball(true), Steps::Half);
-  add(5, "ball-tolerance", "ball, both within the default tolerance", 20, ball(false),
+  add(5,
+    "ball-tolerance",
+    "ball, both within the default tolerance",
+    20,
+    ball(false),
     Steps::Tolerance);
   add(6, "brain-own-steps", "brain scan, own steps, errors no larger", 5, brain(false), Steps::Own);
-  add(7, "brain-shaded-own-steps", "brain scan shaded, own steps, errors no larger", 5, brain(true),
+  add(7,
+    "brain-shaded-own-steps",
+    "brain scan shaded, own steps, errors no larger",
+    5,
+    brain(true),
     Steps::Own);
   add(8, "head-own-steps", "head CT, own steps, errors no larger", 5, head(false), Steps::Own);
-  add(9, "head-shaded-own-steps", "head CT shaded, own steps, errors no larger", 5, head(true),
+  add(9,
+    "head-shaded-own-steps",
+    "head CT shaded, own steps, errors no larger",
+    5,
+    head(true),
     Steps::Own);
 
   Row mip;
@@ -215,8 +236,8 @@ void add_render_rows(Scenes& scenes, std::vector<Row>& rows)
   {
     want_display(scenes.options());
     Scene& scene = scenes.ball(false);
-    pair->brume = std::make_unique<Subject>(
-      scene, 0.5 * scene.volume().voxel_edge, scenes.options().threads);
+    pair->brume =
+      std::make_unique<Subject>(scene, 0.5 * scene.volume().voxel_edge, scenes.options().threads);
     pair->brume->mapper()->SetBlendModeToMaximumIntensity();
     vtkObject::SetGlobalWarningDisplay(0); // it warns of a setting that it does not follow
     pair->brume->render();
@@ -233,7 +254,7 @@ void add_render_rows(Scenes& scenes, std::vector<Row>& rows)
     pair->stock->render();
     row.other = "VTK's CPU mapper, the same step";
     row.remark("the two pictures differ by " +
-      in_words(brume::measure(pair->brume->picture(), pair->stock->picture())));
+               in_words(brume::measure(pair->brume->picture(), pair->stock->picture())));
   };
   mip.repeat = [pair] { return pair->repeat(); };
   rows.push_back(mip);

@@ -23,8 +23,8 @@ const brume::Picture& Scene::truth()
     const brume::app::VolumeScene& scene = this->Volume;
     vtkNew<vtkBrumeRayMarchMapper> mapper;
     mapper->SetInputData(scene.input.image);
-    const brume::Scene* plain = mapper->UpdateScene(
-      scene.volume, scene.camera, scene.lights, scene.width(), scene.height());
+    const brume::Scene* plain =
+      mapper->UpdateScene(scene.volume, scene.camera, scene.lights, scene.width(), scene.height());
     if (!plain)
     {
       throw std::runtime_error(scene.options.input + ": it cannot be drawn");
@@ -34,8 +34,9 @@ const brume::Picture& Scene::truth()
     settings.threads = scene.options.threads;
     const brume::ReferenceStatistics done = brume::render_reference(*plain, settings, film);
     this->TruthSeconds = done.seconds;
-    this->Truth = { film.width, film.height,
-      brume::over_background(film, scene.options.background.data()) };
+    this->Truth = {
+      film.width, film.height, brume::over_background(film, scene.options.background.data())
+    };
   }
   return this->Truth;
 }
@@ -66,7 +67,8 @@ double Subject::render()
 
 brume::Picture Subject::picture() const
 {
-  return { this->Film.width, this->Film.height,
+  return { this->Film.width,
+    this->Film.height,
     brume::over_background(this->Film, this->TheScene.volume().options.background.data()) };
 }
 
@@ -85,8 +87,10 @@ vtkSmartPointer<vtkLightCollection> headlight()
 
 }
 
-std::unique_ptr<Scene> Scenes::of_balls(
-  vtkImageData* image, double largest, double edge, const char* name) const
+std::unique_ptr<Scene> Scenes::of_balls(vtkImageData* image,
+  double largest,
+  double edge,
+  const char* name) const
 {
   brume::app::VolumeScene scene;
   scene.options.input = name;
@@ -105,7 +109,8 @@ std::unique_ptr<Scene> Scenes::of_balls(
   const double length = std::sqrt(0.45 * 0.45 + 0.35 * 0.35 + 0.82 * 0.82);
   scene.camera->SetViewAngle(30.0);
   scene.camera->SetFocalPoint(half, half, half);
-  scene.camera->SetPosition(half + 0.45 / length * distance, half - 0.35 / length * distance,
+  scene.camera->SetPosition(half + 0.45 / length * distance,
+    half - 0.35 / length * distance,
     half + 0.82 / length * distance);
   scene.camera->SetViewUp(0.0, 1.0, 0.0);
   scene.voxel_edge = image->GetSpacing()[0];
@@ -124,8 +129,8 @@ Scene& Scenes::ball(bool shaded)
   const int n = this->Settings.quick ? 48 : 256;
   if (!plain)
   {
-    plain = this->of_balls(bumpy_ball::image<std::uint16_t>(n, VTK_UNSIGNED_SHORT, n - 1.0),
-      65530.0, n - 1.0, "ball");
+    plain = this->of_balls(
+      bumpy_ball::image<std::uint16_t>(n, VTK_UNSIGNED_SHORT, n - 1.0), 65530.0, n - 1.0, "ball");
   }
   if (!shaded)
   {
@@ -165,15 +170,19 @@ Scene& Scenes::input(const std::string& spec, bool shaded)
 std::string in_words(const brume::ImageErrors& errors)
 {
   char text[120];
-  std::snprintf(text, sizeof(text), "mean %.3g, 99.9 %% %.3g, largest %.3g",
-    255.0 * errors.mean_absolute, 255.0 * errors.percentile_999, 255.0 * errors.largest);
+  std::snprintf(text,
+    sizeof(text),
+    "mean %.3g, 99.9 %% %.3g, largest %.3g",
+    255.0 * errors.mean_absolute,
+    255.0 * errors.percentile_999,
+    255.0 * errors.largest);
   return text;
 }
 
 bool no_larger(const brume::ImageErrors& a, const brume::ImageErrors& b)
 {
   return a.mean_absolute <= b.mean_absolute && a.percentile_999 <= b.percentile_999 &&
-    a.largest <= b.largest;
+         a.largest <= b.largest;
 }
 
 }

@@ -26,10 +26,10 @@ struct Options
 {
   bool quick = false; ///< small volumes and pictures, everything once: does it run at all
   int threads = 2;
-  int resolution = 512;    ///< pixels along each side
+  int resolution = 512; ///< pixels along each side
   int repetitions = 5;
-  std::string brain;       ///< the scan's file; empty where there is none
-  std::string no_display;  ///< why there is no display; empty where there is one
+  std::string brain;      ///< the scan's file; empty where there is none
+  std::string no_display; ///< why there is no display; empty where there is one
 };
 
 /// A scene, its truth made when it is first asked for.
@@ -86,8 +86,10 @@ public:
   /// A file or sample as `brume compare` draws it, its preset picked from the data.
   Scene& input(const std::string& spec, bool shaded);
   /// The scene of an image of bumpy balls, not kept.
-  std::unique_ptr<Scene> of_balls(
-    vtkImageData* image, double largest, double edge, const char* name) const;
+  std::unique_ptr<Scene> of_balls(vtkImageData* image,
+    double largest,
+    double edge,
+    const char* name) const;
 
 private:
   Options Settings;

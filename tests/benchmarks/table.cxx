@@ -71,7 +71,7 @@ double Row::figure() const
 bool Row::met() const
 {
   return this->has_figure() &&
-    (this->at_least ? this->figure() >= this->target : this->figure() <= this->target);
+         (this->at_least ? this->figure() >= this->target : this->figure() <= this->target);
 }
 
 std::string to_text(const std::vector<Row>& rows)
@@ -92,7 +92,7 @@ std::string to_text(const std::vector<Row>& rows)
       if (figures.size() > 1)
       {
         line[5] = number(*std::min_element(figures.begin(), figures.end())) + "–" +
-          number(*std::max_element(figures.begin(), figures.end()));
+                  number(*std::max_element(figures.begin(), figures.end()));
       }
       line[6] = seconds_of(row, &Repetition::seconds);
       line[7] = seconds_of(row, &Repetition::other);
@@ -154,9 +154,13 @@ nlohmann::json to_json(const std::vector<Row>& rows)
   nlohmann::json list = nlohmann::json::array();
   for (const Row& row : rows)
   {
-    nlohmann::json one{ { "number", row.number }, { "name", row.name }, { "what", row.what },
-      { "unit", row.unit }, { "target", row.target },
-      { "target_is", row.at_least ? "least" : "most" }, { "remarks", row.remarks } };
+    nlohmann::json one{ { "number", row.number },
+      { "name", row.name },
+      { "what", row.what },
+      { "unit", row.unit },
+      { "target", row.target },
+      { "target_is", row.at_least ? "least" : "most" },
+      { "remarks", row.remarks } };
     if (row.has_figure())
     {
       one["figure"] = row.figure();
@@ -165,7 +169,8 @@ nlohmann::json to_json(const std::vector<Row>& rows)
       for (const Repetition& repetition : row.measured)
       {
         one["repetitions"].push_back({ { "figure", repetition.figure },
-          { "seconds", repetition.seconds }, { "other_seconds", repetition.other } });
+          { "seconds", repetition.seconds },
+          { "other_seconds", repetition.other } });
       }
     }
     else

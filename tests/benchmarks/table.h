@@ -30,9 +30,9 @@ struct Row
 {
   // What it is.
   int number = 0;
-  std::string name;  ///< for --filter: words joined by dashes
-  std::string what;  ///< one line
-  std::string unit;  ///< of the figure: "×", "%", "bytes a voxel"
+  std::string name; ///< for --filter: words joined by dashes
+  std::string what; ///< one line
+  std::string unit; ///< of the figure: "×", "%", "bytes a voxel"
   double target = 0.0;
   bool at_least = true; ///< the figure is to be at least the target, else at most
   std::string other;    ///< what the second time is of
@@ -57,8 +57,8 @@ struct Row
 
 double median(std::vector<double> values);
 
-/// The rows as a table in Markdown, aligned so that a terminal shows it well, and below it each row's
-/// remarks.
+/// The rows as a table in Markdown, aligned so that a terminal shows it well, and below it each
+/// row's remarks.
 std::string to_text(const std::vector<Row>& rows);
 nlohmann::json to_json(const std::vector<Row>& rows);
 

@@ -49,11 +49,13 @@ Scene ball_scene(const Voxels<T>& voxels, bool perspective = true)
 {
   Scene scene;
   scene.volumes[0].grid = voxels.grid();
-  scene.volumes[0].data_from_index = placed(glm::dvec3(0.8, 1.0, 1.3), glm::dvec3(4.0, -9.0, 100.0));
+  scene.volumes[0].data_from_index =
+    placed(glm::dvec3(0.8, 1.0, 1.3), glm::dvec3(4.0, -9.0, 100.0));
   scene.volumes[0].world_from_data = glm::rotate(glm::dmat4(1.0), 0.4, glm::dvec3(1.0, 2.0, -0.5));
   const double shift = std::is_signed_v<T> ? -30.0 : 0.0;
   scene.volumes[0].classification = classify(
-    shift, 100.0 + shift,
+    shift,
+    100.0 + shift,
     [&](double v)
     {
       const double u = (v - shift) / 100.0;
@@ -78,8 +80,8 @@ Scene ball_scene(const Voxels<T>& voxels, bool perspective = true)
 void add_shading(Scene& scene)
 {
   scene.volumes[0].shading.enabled = true;
-  const glm::dvec3 centre(
-    scene.volumes[0].world_from_data * scene.volumes[0].data_from_index * glm::dvec4(13.0, 10.0, 9.0, 1.0));
+  const glm::dvec3 centre(scene.volumes[0].world_from_data * scene.volumes[0].data_from_index *
+                          glm::dvec4(13.0, 10.0, 9.0, 1.0));
   Light sun;
   sun.direction = glm::normalize(glm::dvec3(0.2, -1.0, -0.4));
   sun.diffuse = { 1.0, 0.9, 0.8 };
@@ -238,7 +240,10 @@ TEST(Kernel, AgreesForThinGrids)
     scene.volumes[0].grid = voxels.grid();
     scene.volumes[0].grid.cell_centred = true;
     scene.volumes[0].grid.padding_x = n.x == 2 ? 1 : 0;
-    scene.volumes[0].classification = classify(0.0, 120.0, [](double v) { return v / 150.0; },
+    scene.volumes[0].classification = classify(
+      0.0,
+      120.0,
+      [](double v) { return v / 150.0; },
       [](double v) { return glm::dvec3(v / 120.0); });
     scene.camera =
       view_of(scene, glm::dvec3(-0.5, 0.3, -0.9), false).camera(double(width) / height);
@@ -441,7 +446,10 @@ TEST(Kernel, ReadsGridsBeyondTwoGibibytes)
         for (int x = at.x / 8 - 1; x <= std::min(at.x / 8 + 1, bricks[0] - 1); ++x)
           ranges->maximum[(std::size_t(z) * bricks[1] + y) * bricks[0] + x] = 255.0f;
   scene.volumes[0].ranges = ranges;
-  scene.volumes[0].classification = classify(0.0, 255.0, [](double v) { return v / 300.0; },
+  scene.volumes[0].classification = classify(
+    0.0,
+    255.0,
+    [](double v) { return v / 300.0; },
     [](double v) { return glm::dvec3(v / 255.0, 1.0, 0.5); });
   for (const glm::ivec3& at : lights)
   {
@@ -505,7 +513,9 @@ TEST(Marcher, LeapsOverNothingThatShows)
     scene.volumes[0].grid = voxels.grid();
     scene.volumes[0].grid.cell_centred = cells;
     scene.volumes[0].grid.linear = !cells;
-    scene.volumes[0].classification = classify(0.0, 300.0,
+    scene.volumes[0].classification = classify(
+      0.0,
+      300.0,
       [](double v) { return v < 20.0 ? 0.0 : 0.2; },
       [](double v) { return glm::dvec3(1.0, v / 300.0, 0.4); });
     for (const glm::dvec3& forward : { glm::dvec3(0, 0, -1), glm::dvec3(1, 0, 0),
@@ -538,9 +548,13 @@ TEST(Marcher, LeavesRaysWithinTheErrorAskedFor)
   {
     Scene scene;
     scene.volumes[0].grid = voxels.grid();
-    scene.volumes[0].classification = classify(0.0, 255.0,
+    scene.volumes[0].classification = classify(
+      0.0,
+      255.0,
       [](double v) { return v < 150.0 ? 0.2 : 0.9; },
-      [&](double v) { return glm::dvec3(v < 150.0 ? 0.0 : highlights ? 0.05 : 1.0); });
+      [&](double v) {
+        return glm::dvec3(v < 150.0 ? 0.0 : highlights ? 0.05 : 1.0);
+      });
     if (highlights)
     {
       scene.volumes[0].shading.enabled = true;
@@ -577,7 +591,10 @@ TEST(Marcher, LeavesRaysWithinTheErrorUnderALampThatGainsStrength)
     { return k > 30 ? 100.0 : 180.0 + 20.0 * std::sin(0.9 * i) * std::sin(0.8 * j + 0.5 * k); });
   Scene scene;
   scene.volumes[0].grid = voxels.grid();
-  scene.volumes[0].classification = classify(0.0, 255.0, [](double v) { return v < 150.0 ? 0.2 : 0.9; },
+  scene.volumes[0].classification = classify(
+    0.0,
+    255.0,
+    [](double v) { return v < 150.0 ? 0.2 : 0.9; },
     [&](double v) { return glm::dvec3(v < 150.0 ? 0.0 : 1.0); });
   scene.volumes[0].shading.enabled = true;
   Light lamp;
@@ -606,9 +623,10 @@ TEST(Marcher, TellsDepthOfDensitiesAndClassifiedGridsInWorldUnits)
     View view = view_of(scene, glm::dvec3(0, 0, -1), true);
     view.near_plane = view.distance - scale * 5.0 - 2.0; // the grid's face is 2 behind it
     scene.camera = view.camera(1.0);
-    scene.volumes[0].density.extinction = std::log(2.0) / 4.0; // half is gone 4 of the data's units in
-    scene.volumes[0].classification = classify(0.0, 2.0, [](double) { return 0.5; },
-      [](double) { return glm::dvec3(1.0); }, 2);
+    scene.volumes[0].density.extinction =
+      std::log(2.0) / 4.0; // half is gone 4 of the data's units in
+    scene.volumes[0].classification = classify(
+      0.0, 2.0, [](double) { return 0.5; }, [](double) { return glm::dvec3(1.0); }, 2);
     scene.volumes[0].classification.unit_distance = 4.0;
     for (ValueMeaning meaning : { ValueMeaning::Density, ValueMeaning::Classified })
     {
@@ -699,7 +717,9 @@ TEST(Marcher, KeepsWhatItsRevisionsSayIsTheSame)
   scene.volumes[0].data_revision = 0;
   scene.volumes[0].medium_revision = 0;
   marcher.render(scene, settings, film);
-  std::fill(scene.volumes[0].classification.opacity.begin(), scene.volumes[0].classification.opacity.end(), 0.0);
+  std::fill(scene.volumes[0].classification.opacity.begin(),
+    scene.volumes[0].classification.opacity.end(),
+    0.0);
   marcher.render(scene, settings, film);
   EXPECT_TRUE(same_bits(film, empty));
   scene.volumes[0].classification.opacity = opacity;

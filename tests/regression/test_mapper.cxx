@@ -329,7 +329,8 @@ TEST(Mapper, RefusesWhatItCannotDrawWithAnError)
   };
   Stage none;
   refuses(none, "no image data");
-  const auto five = image(5, 5, 5, VTK_UNSIGNED_CHAR, [](int, int, int, int) { return 1.0; }, 5);
+  const auto five = image(
+    5, 5, 5, VTK_UNSIGNED_CHAR, [](int, int, int, int) { return 1.0; }, 5);
   Stage components(five);
   refuses(components, "components");
   Stage short_rgba(image(5, 5, 5, VTK_SHORT, [](int, int, int, int) { return 1.0; }, 4));

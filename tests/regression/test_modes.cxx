@@ -1,6 +1,6 @@
 // The modes of the stock mappers: the same scene drawn by them and by Brume, live. Errors are in
-// levels of an 8-bit screen (1/255); each bound is about twice what was measured, and what is left has
-// the causes that docs/user/drop-in.md lists: above all where samples lie, and VTK's tables.
+// levels of an 8-bit screen (1/255); each bound is about twice what was measured, and what is left
+// has the causes that docs/user/drop-in.md lists: above all where samples lie, and VTK's tables.
 #include "../support/stock_pictures.h"
 
 #include "vtkFloatArray.h"
@@ -15,7 +15,8 @@ using vtk_scenes::image;
 namespace
 {
 
-/// Bounds of the mean and of the 99.9th percentile, in levels; no test against a mapper that has none.
+/// Bounds of the mean and of the 99.9th percentile, in levels; no test against a mapper that has
+/// none.
 struct Bounds
 {
   double mean = 0.0;
@@ -55,9 +56,10 @@ Scene of(const char* name, int type = VTK_UNSIGNED_CHAR)
   return scene;
 }
 
-// Cropping and clipping. The GPU mapper's cropping planes are up to half a voxel off, since it takes
-// them to the texture of voxels as though these were cells; its rays begin a whole step after a
-// clipping plane. A surface cut through dense matter shows both. ---------------------------------
+// Cropping and clipping. The GPU mapper's cropping planes are up to half a voxel off, since it
+// takes them to the texture of voxels as though these were cells; its rays begin a whole step after
+// a clipping plane. A surface cut through dense matter shows both.
+// ---------------------------------
 
 TEST(Modes, CroppingToABox)
 {
@@ -114,7 +116,11 @@ TEST(Modes, ClippingPlanesOfAPropThatWasMoved)
 /// α² / Σα and Brume adds extinctions.
 vtkSmartPointer<vtkImageData> two_balls(int type)
 {
-  return image(32, 29, 34, type,
+  return image(
+    32,
+    29,
+    34,
+    type,
     [](int i, int j, int k, int c)
     {
       const double x = i - (c == 0 ? 8.0 : 23.0);
@@ -161,7 +167,11 @@ void dependent(vtkVolume* volume)
 TEST(Modes, TwoDependentComponents)
 {
   Scene scene = of("dependent-two");
-  scene.image = image(32, 29, 34, VTK_UNSIGNED_SHORT,
+  scene.image = image(
+    32,
+    29,
+    34,
+    VTK_UNSIGNED_SHORT,
     [](int i, int j, int k, int c)
     {
       return c == 0 ? 6.0 * j
@@ -175,11 +185,17 @@ TEST(Modes, TwoDependentComponents)
 TEST(Modes, FourDependentComponents)
 {
   Scene scene = of("dependent-four");
-  scene.image = image(32, 29, 34, VTK_UNSIGNED_CHAR,
+  scene.image = image(
+    32,
+    29,
+    34,
+    VTK_UNSIGNED_CHAR,
     [](int i, int j, int k, int c)
     {
       // All from 0 to 255: the GPU mapper confuses that with the range that a component has.
-      const double v[4] = { 255.0 * i / 31, 255.0 * j / 28, 255.0 * k / 33,
+      const double v[4] = { 255.0 * i / 31,
+        255.0 * j / 28,
+        255.0 * k / 33,
         1.28 * vtk_scenes::ball(2.0 * i / 31 - 1, 2.0 * j / 28 - 1, 2.0 * k / 33 - 1) };
       return v[c];
     },
@@ -226,7 +242,10 @@ TEST(Modes, A2DTransferFunction)
 
 vtkSmartPointer<vtkImageData> stripes(int labels)
 {
-  return image(32, 29, 34, VTK_UNSIGNED_CHAR,
+  return image(32,
+    29,
+    34,
+    VTK_UNSIGNED_CHAR,
     [labels](int i, int j, int, int) { return (i / 6 + j / 7) % labels; });
 }
 
@@ -268,6 +287,41 @@ TEST(Modes, ALabelMap)
     };
     compare(scene, {}, { 1.3, 17 });
   }
+}
+
+// Thumbnails. The CPU mapper's loses the rest of a division by 128, and with it up to a level.
+TEST(Modes, CanonicalViews)
+{
+  Scene scene = of("canonical");
+  double direction[3] = { 0.3, -0.4, -1.0 };
+  double up[3] = { 0, 1, 0 };
+  const auto picture = [&](auto* mapper)
+  {
+    Window w(scene);
+    mapper->SetAutoAdjustSampleDistances(0);
+    mapper->SetSampleDistance(0.5);
+    mapper->SetInputData(scene.image);
+    mapper->CroppingOn(); // not heeded
+    w.volume->SetMapper(mapper);
+    vtkNew<vtkImageData> image;
+    image->SetDimensions(size, size, 1);
+    image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+    mapper->CreateCanonicalView(
+      w.volume, image, vtkVolumeMapper::COMPOSITE_BLEND, direction, up);
+    EXPECT_TRUE(mapper->GetCropping());
+    Picture result;
+    for (vtkIdType i = 0; i < 3 * size * size; ++i)
+      result.push_back(static_cast<unsigned char*>(image->GetScalarPointer())[i] / 255.0);
+    return result;
+  };
+  const Picture ours = picture(vtkNew<vtkBrumeRayMarchMapper>().Get());
+  const Picture theirs = picture(vtkNew<vtkFixedPointVolumeRayCastMapper>().Get());
+  const Errors errors = errors_of(ours, theirs);
+  std::cout << "canonical, CPU: mean " << errors.mean << ", p99.9 " << errors.p999 << "\n";
+  keep("canonical", { ours, theirs });
+  EXPECT_GT(brightest(ours), 0.4);
+  EXPECT_LE(errors.mean, 0.6);
+  EXPECT_LE(errors.p999, 4.0);
 }
 
 }

@@ -156,8 +156,8 @@ std::vector<double> from_near_plane(const Case& c)
   if (c.nearest)
   {
     // It takes the voxel before a place, not the nearest: the picture is half a voxel off.
-    moved.volumes[0].data_from_index = moved.volumes[0].data_from_index *
-      glm::translate(glm::dmat4(1.0), glm::dvec3(0.5));
+    moved.volumes[0].data_from_index =
+      moved.volumes[0].data_from_index * glm::translate(glm::dmat4(1.0), glm::dvec3(0.5));
   }
   brume::render_fixed_step(
     moved, 0.5, brume::SamplePlacement::FromNearPlane, 0.0, 0, film);

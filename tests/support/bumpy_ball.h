@@ -1,4 +1,5 @@
-// The volume that benchmarks share: a soft ball with bumps, inside and out, that rays can go through.
+// The volume that benchmarks share: a soft ball with bumps, inside and out, that rays can go
+// through.
 #pragma once
 
 #include "vtkColorTransferFunction.h"
@@ -44,8 +45,11 @@ struct Ball
 /// n³ voxels of unsigned integers over [-1, 1]³ with these balls in it, `largest` for density 1.
 /// The spacing is such that the volume's edge is `edge` long; its corner is at the origin.
 template <class T>
-vtkSmartPointer<vtkImageData> image(int n, int vtk_type, double edge,
-  const std::vector<Ball>& balls = { Ball() }, double largest = double(T(-1)) - 5.0)
+vtkSmartPointer<vtkImageData> image(int n,
+  int vtk_type,
+  double edge,
+  const std::vector<Ball>& balls = { Ball() },
+  double largest = double(T(-1)) - 5.0)
 {
   auto data = vtkSmartPointer<vtkImageData>::New();
   data->SetDimensions(n, n, n);
@@ -54,7 +58,8 @@ vtkSmartPointer<vtkImageData> image(int n, int vtk_type, double edge,
   data->GetPointData()->GetScalars()->SetName("density");
   auto* values = static_cast<T*>(data->GetScalarPointer());
   const double scale = 2.0 / (n - 1);
-  tbb::parallel_for(0, n,
+  tbb::parallel_for(0,
+    n,
     [&](int k)
     {
       T* slice = values + static_cast<std::size_t>(k) * n * n;
@@ -76,7 +81,8 @@ vtkSmartPointer<vtkImageData> image(int n, int vtk_type, double edge,
           for (int i = first(ball.x); i <= last(ball.x); ++i)
           {
             const double d = density((i * scale - 1.0 - ball.x) / ball.radius,
-              (j * scale - 1.0 - ball.y) / ball.radius, z / ball.radius);
+              (j * scale - 1.0 - ball.y) / ball.radius,
+              z / ball.radius);
             T& value = slice[static_cast<std::size_t>(j) * n + i];
             value = std::max(value, static_cast<T>(std::floor(largest * d + 0.5)));
           }

@@ -37,8 +37,7 @@ struct Product
 template <class Function>
 Voxels<float> voxels_of(int nx, int ny, int nz, const Function& f)
 {
-  return Voxels<float>(
-    nx, ny, nz, [&](int i, int j, int k) { return f(glm::dvec3(i, j, k)); });
+  return Voxels<float>(nx, ny, nz, [&](int i, int j, int k) { return f(glm::dvec3(i, j, k)); });
 }
 
 /// A pixel's ray through one volume's box: index space at both ends, and lengths.
@@ -46,9 +45,9 @@ struct Chord
 {
   glm::dvec3 begin{ 0.0 };
   glm::dvec3 end{ 0.0 };
-  double length = 0.0;     ///< data units; 0 for a miss
-  double from_near = 0.0;  ///< world units from the near plane to `begin`
-  double world = 0.0;      ///< world units from `begin` to `end`
+  double length = 0.0;    ///< data units; 0 for a miss
+  double from_near = 0.0; ///< world units from the near plane to `begin`
+  double world = 0.0;     ///< world units from `begin` to `end`
 };
 
 inline Chord chord(const View& view, const Volume& volume, int x, int y, int width, int height)
@@ -59,7 +58,8 @@ inline Chord chord(const View& view, const Volume& volume, int x, int y, int wid
   const glm::dmat4 index_from_world = glm::inverse(world_from_index);
   const auto to_index = [&](const long double p[3])
   {
-    return glm::dvec3(index_from_world *
+    return glm::dvec3(
+      index_from_world *
       glm::dvec4(glm::dvec3(double(p[0]), double(p[1]), double(p[2])) + view.centre, 1.0));
   };
   const glm::dvec3 from = to_index(b);
@@ -101,8 +101,8 @@ struct Block
   {
     Volume v;
     v.grid = voxels.grid();
-    v.classification = classify(0.0, 200.0, [=](double) { return opacity; },
-      [=](double) { return colour; }, 3);
+    v.classification = classify(
+      0.0, 200.0, [=](double) { return opacity; }, [=](double) { return colour; }, 3);
     v.classification.unit_distance = unit_distance;
     return v;
   }

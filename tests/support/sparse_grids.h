@@ -18,8 +18,10 @@ using namespace brume;
 /// The topology of all bricks that hold a value(i, j, k) other than the background, for voxels from
 /// `lower` to `upper`, both included.
 template <class Value>
-SparseTopology topology_of(
-  const BrickPlace& lower, const BrickPlace& upper, double background, Value value)
+SparseTopology topology_of(const BrickPlace& lower,
+  const BrickPlace& upper,
+  double background,
+  Value value)
 {
   SparseTopology topology;
   const auto floor8 = [](std::int32_t v) { return v >> 3; };
@@ -76,12 +78,14 @@ SparseVoxels::Fill filler(const SparseTopology& topology, VoxelType type, Value 
 }
 
 template <class Value>
-std::unique_ptr<SparseVoxels> make_sparse(VoxelType type, const BrickPlace& lower,
-  const BrickPlace& upper, double background, Value value)
+std::unique_ptr<SparseVoxels> make_sparse(VoxelType type,
+  const BrickPlace& lower,
+  const BrickPlace& upper,
+  double background,
+  Value value)
 {
   const SparseTopology topology = topology_of(lower, upper, background, value);
-  return std::make_unique<SparseVoxels>(
-    type, background, topology, filler(topology, type, value));
+  return std::make_unique<SparseVoxels>(type, background, topology, filler(topology, type, value));
 }
 
 /// The same voxels, dense and single precision, x fastest.

@@ -101,8 +101,8 @@ inline Picture brume_picture(const Scene& scene)
   set_up(mapper, scene);
   w.render(mapper, scene);
   brume::Film film(size, size);
-  EXPECT_TRUE(mapper->RenderFilm(
-    w.volume, w.renderer->GetActiveCamera(), w.renderer->GetLights(), film));
+  EXPECT_TRUE(
+    mapper->RenderFilm(w.volume, w.renderer->GetActiveCamera(), w.renderer->GetLights(), film));
   return of_film(film);
 }
 
@@ -193,8 +193,8 @@ inline void keep(const std::string& name, const std::vector<Picture>& pictures)
       for (int x = 0; x < size; ++x)
         for (int c = 0; c < 3; ++c)
           static_cast<unsigned char*>(image->GetScalarPointer(n * size + x, y, 0))[c] =
-            static_cast<unsigned char>(std::lround(
-              255.0 * std::clamp(pictures[n][3 * (y * size + x) + c], 0.0, 1.0)));
+            static_cast<unsigned char>(
+              std::lround(255.0 * std::clamp(pictures[n][3 * (y * size + x) + c], 0.0, 1.0)));
   vtkNew<vtkPNGWriter> writer;
   writer->SetFileName((std::string(folder) + "/" + name + ".png").c_str());
   writer->SetInputData(image);

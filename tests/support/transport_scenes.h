@@ -139,7 +139,8 @@ inline View view_of(const Scene& scene, const glm::dvec3& forward, bool parallel
     lower[axis] = scene.volumes[0].grid.lower(axis);
     upper[axis] = scene.volumes[0].grid.upper(axis);
   }
-  const glm::dmat4 world_from_index = scene.volumes[0].world_from_data * scene.volumes[0].data_from_index;
+  const glm::dmat4 world_from_index =
+    scene.volumes[0].world_from_data * scene.volumes[0].data_from_index;
   View view;
   view.centre = glm::dvec3(world_from_index * glm::dvec4(0.5 * (lower + upper), 1.0));
   view.forward = glm::normalize(forward);

@@ -21,8 +21,10 @@ inline double rough_ball(int i, int j, int k, double radius)
 
 /// A fog volume of such a ball around `centre`.
 template <class Grid = openvdb::FloatGrid>
-typename Grid::Ptr fog(const std::string& name, const openvdb::Coord& centre = { 0, 0, 0 },
-  double radius = 21.0, double background = 0.0)
+typename Grid::Ptr fog(const std::string& name,
+  const openvdb::Coord& centre = { 0, 0, 0 },
+  double radius = 21.0,
+  double background = 0.0)
 {
   openvdb::initialize();
   using Value = typename Grid::ValueType;
@@ -44,8 +46,9 @@ typename Grid::Ptr fog(const std::string& name, const openvdb::Coord& centre = {
   return grid;
 }
 
-inline std::string write(
-  const std::string& folder, const std::string& name, const openvdb::GridPtrVec& grids)
+inline std::string write(const std::string& folder,
+  const std::string& name,
+  const openvdb::GridPtrVec& grids)
 {
   const std::string path = folder + "/" + name;
   openvdb::io::File file(path);

@@ -73,9 +73,11 @@ void expect_brute_force(const Grid& grid)
 TYPED_TEST(BrickRange, IsThatOfAllVoxelsWithinReach)
 {
   std::mt19937 random(7);
+  // Rows shorter and longer than the widest register, and no multiple of it.
   for (const auto& n : { glm::ivec3(9, 8, 7), glm::ivec3(17, 1, 16), glm::ivec3(5, 25, 1),
-         glm::ivec3(32, 9, 10), glm::ivec3(4, 1, 1) })
+         glm::ivec3(32, 9, 10), glm::ivec3(4, 1, 1), glm::ivec3(64, 3, 2), glm::ivec3(201, 10, 11) })
   {
+    SCOPED_TRACE(n.x);
     const Voxels<TypeParam> voxels(n.x, n.y, n.z,
       [&](int, int, int)
       {
@@ -88,7 +90,13 @@ TYPED_TEST(BrickRange, IsThatOfAllVoxelsWithinReach)
           return TypeParam(random());
         }
       });
-    expect_brute_force<TypeParam>(voxels.grid());
+    for (const std::string& target : targets())
+    {
+      SCOPED_TRACE(target);
+      ASSERT_TRUE(force_simd_target(target));
+      expect_brute_force<TypeParam>(voxels.grid());
+    }
+    force_simd_target("");
   }
 }
 
@@ -116,6 +124,32 @@ TEST(BrickRange, LeavesNonFiniteVoxelsOut)
   voxels.values[5] = std::numeric_limits<float>::max();
   voxels.values[6] = std::numeric_limits<float>::lowest();
   expect_brute_force<float>(voxels.grid());
+}
+
+TEST(BrickRange, KnowsTheBricksThatReachANonFiniteVoxel)
+{
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  std::mt19937 random(5);
+  for (const int one_in : { 3000, 50, 1 })
+  {
+    const Voxels<float> voxels(
+      75, 18, 17, [&](int i, int, int) { return random() % one_in == 0 ? nan : float(i); });
+    const Grid grid = voxels.grid();
+    const BrickRanges ranges = measure_bricks(grid);
+    ASSERT_EQ(ranges.reaches_non_finite.size(), ranges.size());
+    std::size_t at = 0;
+    for (int bz = 0; bz < ranges.dims[2]; ++bz)
+      for (int by = 0; by < ranges.dims[1]; ++by)
+        for (int bx = 0; bx < ranges.dims[0]; ++bx, ++at)
+        {
+          bool reaches = false;
+          for (int z = 8 * bz; z <= std::min(8 * bz + 8, 16); ++z)
+            for (int y = 8 * by; y <= std::min(8 * by + 8, 17); ++y)
+              for (int x = 8 * bx; x <= std::min(8 * bx + 8, 74); ++x)
+                reaches = reaches || std::isnan(voxels.values[(std::size_t(z) * 18 + y) * 75 + x]);
+          ASSERT_EQ(ranges.reaches_non_finite[at], reaches) << bx << ' ' << by << ' ' << bz;
+        }
+  }
 }
 
 TEST(BrickRange, CountsAPaddedVoxelOnce)
@@ -150,11 +184,11 @@ TEST(VisibleBricks, DistanceIsThatToTheNearestVisibleOne)
     BrickRanges ranges;
     for (int axis = 0; axis < 3; ++axis)
     {
-      ranges.dims[axis] = 1 + random() % 9;
+      ranges.dims[axis] = 1 + random() % (round % 10 == 9 ? 22 : 9);
     }
     ranges.minimum.assign(ranges.size(), 0.0f);
     ranges.maximum.assign(ranges.size(), 0.0f);
-    const int one_in = 1 + (round % 3) * 30;
+    const int one_in = round % 10 == 9 ? 3000 : 1 + (round % 3) * 30;
     for (float& v : ranges.maximum)
     {
       v = random() % one_in == 0 && round != 4 ? 1.0f : 0.0f;

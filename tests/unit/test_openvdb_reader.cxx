@@ -171,7 +171,7 @@ TEST(OpenVDBReader, ReadsTilesOfEveryLevelAndABackground)
   tree.addTile(1, openvdb::Coord(-16, 0, -200), 0.5f, true);    // 8³
   tree.addTile(2, openvdb::Coord(128, 128, -256), 0.75f, true); // 128³
   tree.addTile(3, openvdb::Coord(-8192, 0, 0), 1.5f, true);     // 4096³
-  tree.addTile(1, openvdb::Coord(64, -64, 0), 0.25f, false);    // inactive, and a value all the same
+  tree.addTile(1, openvdb::Coord(64, -64, 0), 0.25f, false); // inactive, and a value all the same
   Reader reader(write(folder, "tiles.vdb", { grid }));
   EXPECT_EQ(reader.error(), "");
   expect_same_values(reader.output(), *grid);
@@ -199,16 +199,15 @@ TEST(OpenVDBReader, TakesAnyAffineTransform)
 
 TEST(OpenVDBReader, ChoosesAmongSeveralGrids)
 {
-  const auto surface = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(
-    10.0f, openvdb::Vec3f(0, 0, 0), 1.0f);
+  const auto surface =
+    openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(10.0f, openvdb::Vec3f(0, 0, 0), 1.0f);
   surface->setName("surface");
   const auto velocity = openvdb::Vec3SGrid::create();
   velocity->setName("a velocity");
   const auto smoke = fog("smoke", { 0, 0, 0 }, 9.0);
   const auto heat = fog("heat", { 0, 0, 0 }, 11.0);
   const auto again = fog("smoke", { 0, 0, 0 }, 13.0);
-  const std::string path =
-    write(folder, "several.vdb", { velocity, surface, smoke, heat, again });
+  const std::string path = write(folder, "several.vdb", { velocity, surface, smoke, heat, again });
   {
     Reader reader(path);
     EXPECT_EQ(reader.error(), "");
@@ -229,7 +228,8 @@ TEST(OpenVDBReader, ChoosesAmongSeveralGrids)
     expect_same_values(reader.output(), *again);
   }
   for (const auto& [name, words] : { std::pair("surface", "is a level set"),
-         std::pair("a velocity", "holds vec3s"), std::pair("none", "no grid 'none'") })
+         std::pair("a velocity", "holds vec3s"),
+         std::pair("none", "no grid 'none'") })
   {
     Reader reader(path, name);
     EXPECT_EQ(reader.errors, 1);

@@ -149,7 +149,8 @@ TEST(RayMaker, AgreesWithRaysMadeByHand)
           double face = 1.0;
           for (int axis = 0; axis < 3; ++axis)
           {
-            face = std::min({ face, std::abs(end[axis]),
+            face = std::min({ face,
+              std::abs(end[axis]),
               std::abs(end[axis] - view_box.scene.volumes[0].grid.upper(axis)) });
           }
           EXPECT_LT(face, 1e-8);

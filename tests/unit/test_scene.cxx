@@ -28,8 +28,8 @@ struct Refusal : testing::Test
     scene.volumes[0].meaning = meaning;
     if (meaning == ValueMeaning::Classified)
     {
-      scene.volumes[0].classification = classify(0.0, 160.0, [](double v) { return v / 200.0; },
-        [](double) { return glm::dvec3(1.0); }, 5);
+      scene.volumes[0].classification = classify(
+        0.0, 160.0, [](double v) { return v / 200.0; }, [](double) { return glm::dvec3(1.0); }, 5);
     }
     scene.camera = view_of(scene, glm::dvec3(0, 0, -1), true).camera(1.0);
     return scene;
@@ -62,7 +62,8 @@ TEST_F(Refusal, OfGrids)
     refuses(meaning, [](Scene& s) { s.volumes[0].grid.components = 0; });
     refuses(meaning, [](Scene& s) { s.volumes[0].grid.component = 1; });
     refuses(meaning, [](Scene& s) { s.volumes[0].grid.component = -1; });
-    refuses(meaning, [](Scene& s)
+    refuses(meaning,
+      [](Scene& s)
       {
         s.volumes[0].grid.colour = VoxelColour::RGB;
         s.volumes[0].grid.components = 4;
@@ -70,7 +71,12 @@ TEST_F(Refusal, OfGrids)
       });
     refuses(meaning, [](Scene& s) { s.volumes[0].weight = -1.0; });
     refuses(meaning, [](Scene& s) { s.volumes.clear(); });
-    refuses(meaning, [](Scene& s) { s.volumes[0].grid.dims[0] = 3; s.volumes[0].grid.dims[1] = s.volumes[0].grid.dims[2] = 1; });
+    refuses(meaning,
+      [](Scene& s)
+      {
+        s.volumes[0].grid.dims[0] = 3;
+        s.volumes[0].grid.dims[1] = s.volumes[0].grid.dims[2] = 1;
+      });
     refuses(meaning, [](Scene& s) { s.surface_depth.resize(3); });
   }
 }
@@ -86,7 +92,8 @@ TEST_F(Refusal, OfMeanings)
   refuses(classified, [](Scene& s) { s.volumes[0].classification.rgb.clear(); });
   refuses(classified, [](Scene& s) { s.volumes[0].classification.opacity.clear(); });
   refuses(classified, [](Scene& s) { s.volumes[0].classification.unit_distance = 0.0; });
-  refuses(classified, [](Scene& s) { s.volumes[0].classification.lower = s.volumes[0].classification.upper; });
+  refuses(classified,
+    [](Scene& s) { s.volumes[0].classification.lower = s.volumes[0].classification.upper; });
   refuses(classified, [](Scene& s) { s.volumes[0].classification.gradient_opacity = { 1.0 }; });
 }
 
@@ -184,12 +191,10 @@ TEST_F(Refusal, OfModes)
     c.value_gradient_width = 2;
     return &c;
   };
-  refuses(ValueMeaning::Classified,
-    [&](Scene& s) { two_dimensional(s)->value_gradient.resize(8); });
-  refuses(ValueMeaning::Classified,
-    [&](Scene& s) { two_dimensional(s)->opacity = { 0.0, 1.0 }; });
+  refuses(
+    ValueMeaning::Classified, [&](Scene& s) { two_dimensional(s)->value_gradient.resize(8); });
+  refuses(ValueMeaning::Classified, [&](Scene& s) { two_dimensional(s)->opacity = { 0.0, 1.0 }; });
   refuses(ValueMeaning::Classified, [&](Scene& s) { two_dimensional(s)->gradient_upper = 0.0; });
   refuses(ValueMeaning::Classified, [&](Scene& s) { two_dimensional(s)->unit_distance = 0.0; });
 }
-
 }

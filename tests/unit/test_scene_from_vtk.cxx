@@ -59,12 +59,15 @@ struct Stage
 };
 
 /// A piecewise linear table at a value, as Classification has it.
-double at(const std::vector<double>& table, double lower, double upper, double value,
-  int channels = 1, int channel = 0)
+double at(const std::vector<double>& table,
+  double lower,
+  double upper,
+  double value,
+  int channels = 1,
+  int channel = 0)
 {
   const int nodes = static_cast<int>(table.size()) / channels;
-  const double x =
-    std::clamp((value - lower) / (upper - lower), 0.0, 1.0) * (nodes - 1);
+  const double x = std::clamp((value - lower) / (upper - lower), 0.0, 1.0) * (nodes - 1);
   const int i = std::min(static_cast<int>(x), nodes - 2);
   const double f = x - i;
   return (1.0 - f) * table[channels * i + channel] + f * table[channels * (i + 1) + channel];
@@ -83,17 +86,17 @@ bool keeps(const brume::Cropping& c, const glm::dvec3& index)
   int region = 0;
   for (int axis = 2; axis >= 0; --axis)
   {
-    region = 3 * region +
-      (index[axis] < c.lower[axis]        ? 0
-          : index[axis] > c.upper[axis] ? 2
-                                        : 1);
+    region = 3 * region + (index[axis] < c.lower[axis] ? 0 : index[axis] > c.upper[axis] ? 2 : 1);
   }
   return c.regions >> region & 1u;
 }
 
 vtkSmartPointer<vtkImageData> mask_image(int nx, int ny, int nz, int labels)
 {
-  return image(nx, ny, nz, VTK_UNSIGNED_CHAR,
+  return image(nx,
+    ny,
+    nz,
+    VTK_UNSIGNED_CHAR,
     [labels](int i, int j, int k, int) { return (i + 2 * j + 3 * k) % labels; });
 }
 
@@ -126,8 +129,8 @@ TEST(SceneFromVTK, CroppingPlanesLieInTheDatasCoordinates)
         data->SetSpacing(1.5, 0.5, 2.0);
         int extent[6];
         data->GetExtent(extent);
-        data->SetExtent(extent[0] + 3, extent[1] + 3, extent[2] - 4, extent[3] - 4, extent[4],
-          extent[5]);
+        data->SetExtent(
+          extent[0] + 3, extent[1] + 3, extent[2] - 4, extent[3] - 4, extent[4], extent[5]);
         data->SetOrigin(10.0, -20.0, 5.0);
         const double* b = data->GetBounds();
         double planes[6];
@@ -150,17 +153,16 @@ TEST(SceneFromVTK, CroppingPlanesLieInTheDatasCoordinates)
           for (int axis = 0; axis < 3; ++axis)
           {
             const int step = axis == 0 ? i % 10 : axis == 1 ? i / 10 % 10 : i / 100;
-            index[axis] = v.grid.lower(axis) +
-              (v.grid.upper(axis) - v.grid.lower(axis)) * (step + 0.37) / 10.0;
+            index[axis] =
+              v.grid.lower(axis) + (v.grid.upper(axis) - v.grid.lower(axis)) * (step + 0.37) / 10.0;
           }
           const glm::dvec3 place(v.data_from_index * glm::dvec4(index, 1.0));
           int region = 0;
           for (int axis = 2; axis >= 0; --axis)
           {
-            region = 3 * region +
-              (place[axis] < planes[2 * axis]         ? 0
-                  : place[axis] > planes[2 * axis + 1] ? 2
-                                                       : 1);
+            region = 3 * region + (place[axis] < planes[2 * axis]        ? 0
+                                    : place[axis] > planes[2 * axis + 1] ? 2
+                                                                         : 1);
           }
           const bool truth = flags >> region & 1;
           kept += truth;
@@ -237,10 +239,16 @@ TEST(SceneFromVTK, BlendModesAreVTKs)
   EXPECT_EQ(scene.average_range[0], 20);
   EXPECT_EQ(scene.average_range[1], 120);
   EXPECT_EQ(scene.isosurfaces, (std::vector<double>{ 50, 150 }));
-  EXPECT_FALSE(stage.errors->GetWarning());
+  EXPECT_EQ(scene.volumes[0].grey_range[0], 0.0);
+  EXPECT_EQ(scene.volumes[0].grey_range[1], scene.volumes[0].ranges->upper);
   stage.mapper->SetBlendModeToSlice();
-  EXPECT_EQ(stage.scene().blend_mode, brume::BlendMode::Composite);
-  EXPECT_TRUE(stage.errors->GetWarning());
+  stage.refuses("SetSliceFunction");
+  vtkNew<vtkPlane> plane;
+  plane->SetOrigin(1, 2, 3);
+  plane->SetNormal(0, 0, -1);
+  stage.property()->SetSliceFunction(plane);
+  EXPECT_EQ(stage.scene().blend_mode, brume::BlendMode::Slice);
+  EXPECT_EQ(stage.scene().slice, glm::dvec4(0, 0, -1, 3));
 }
 
 // Components. ----------------------------------------------------------------------------------
@@ -251,8 +259,13 @@ TEST(SceneFromVTK, IndependentComponentsAreVolumesThatShareTheirVoxels)
   {
     for (int components = 1; components <= 4; ++components)
     {
-      Stage stage(image(5, 6, 7, type,
-        [](int i, int j, int k, int c) { return (1 + c) * (i + j + k); }, components));
+      Stage stage(image(
+        5,
+        6,
+        7,
+        type,
+        [](int i, int j, int k, int c) { return (1 + c) * (i + j + k); },
+        components));
       vtkVolumeProperty* property = stage.property();
       for (int c = 0; c < components; ++c)
       {
@@ -308,12 +321,38 @@ TEST(SceneFromVTK, IndependentComponentsAreVolumesThatShareTheirVoxels)
   }
 }
 
+// Of several, surfaces are those of the heaviest; and back again.
+TEST(SceneFromVTK, SurfacesAreOfTheHeaviestComponent)
+{
+  Stage stage(image(5, 6, 7, VTK_SHORT,
+    [](int i, int j, int k, int c) { return (1 + c) * (i + j + k); }, 3));
+  stage.property()->SetComponentWeight(0, 0.3);
+  stage.property()->SetComponentWeight(1, 0.4);
+  stage.property()->SetComponentWeight(2, 0.9);
+  EXPECT_EQ(stage.scene().mixture, brume::Mixture::Components);
+  EXPECT_EQ(stage.first().grid.component, 0);
+  stage.mapper->SetBlendModeToIsoSurface();
+  EXPECT_EQ(stage.first().grid.component, 2);
+  EXPECT_EQ(stage.first().weight, 0.9);
+  EXPECT_EQ(stage.first().grey_range[1], 45.0);
+  stage.mapper->SetBlendModeToMaximumIntensity();
+  for (int c = 0; c < 3; ++c)
+  {
+    EXPECT_EQ(stage.scene().volumes[c].grid.component, c);
+  }
+}
+
 TEST(SceneFromVTK, OfTwoDependentComponentsTheFirstIsColouredAndTheSecondIsSeen)
 {
   for (int type : { VTK_UNSIGNED_SHORT, VTK_DOUBLE })
   {
-    Stage stage(image(5, 5, 5, type,
-      [](int i, int, int, int c) { return c == 0 ? 1000.0 + 100.0 * i : 10.0 * i; }, 2));
+    Stage stage(image(
+      5,
+      5,
+      5,
+      type,
+      [](int i, int, int, int c) { return c == 0 ? 1000.0 + 100.0 * i : 10.0 * i; },
+      2));
     stage.property()->IndependentComponentsOff();
     vtkNew<vtkColorTransferFunction> colours;
     colours->AddRGBPoint(1000, 1, 0, 0);
@@ -338,7 +377,8 @@ TEST(SceneFromVTK, OfTwoDependentComponentsTheFirstIsColouredAndTheSecondIsSeen)
 
 TEST(SceneFromVTK, OfFourDependentComponentsThreeAreTheColour)
 {
-  Stage stage(image(5, 5, 5, VTK_UNSIGNED_CHAR, [](int, int, int, int c) { return 50 * c; }, 4));
+  Stage stage(image(
+    5, 5, 5, VTK_UNSIGNED_CHAR, [](int, int, int, int c) { return 50 * c; }, 4));
   stage.property()->IndependentComponentsOff();
   const brume::Volume& v = stage.first();
   EXPECT_EQ(v.grid.component, 3);
@@ -349,7 +389,8 @@ TEST(SceneFromVTK, OfFourDependentComponentsThreeAreTheColour)
 
 TEST(SceneFromVTK, ComponentsAreReadAnewWhenTheirMeaningChanges)
 {
-  Stage stage(image(5, 5, 5, VTK_UNSIGNED_CHAR, [](int, int, int, int c) { return 50 * c; }, 4));
+  Stage stage(image(
+    5, 5, 5, VTK_UNSIGNED_CHAR, [](int, int, int, int c) { return 50 * c; }, 4));
   EXPECT_EQ(stage.scene().volumes.size(), 4u);
   stage.property()->IndependentComponentsOff();
   EXPECT_EQ(stage.scene().volumes.size(), 1u);
@@ -359,9 +400,11 @@ TEST(SceneFromVTK, ComponentsAreReadAnewWhenTheirMeaningChanges)
 
 TEST(SceneFromVTK, RefusesComponentsThatMeanNothing)
 {
-  Stage five(image(5, 5, 5, VTK_SHORT, [](int, int, int, int) { return 1.0; }, 5));
+  Stage five(image(
+    5, 5, 5, VTK_SHORT, [](int, int, int, int) { return 1.0; }, 5));
   five.refuses("components");
-  Stage three(image(5, 5, 5, VTK_SHORT, [](int, int, int, int) { return 1.0; }, 3));
+  Stage three(image(
+    5, 5, 5, VTK_SHORT, [](int, int, int, int) { return 1.0; }, 3));
   three.property()->IndependentComponentsOff();
   three.refuses("components");
 }
@@ -383,7 +426,7 @@ double texture(vtkFloatArray* pixels, int width, int height, double u, double v,
   const double fx = x - i;
   const double fy = y - j;
   return (1 - fy) * ((1 - fx) * texel(i, j) + fx * texel(i + 1, j)) +
-    fy * ((1 - fx) * texel(i, j + 1) + fx * texel(i + 1, j + 1));
+         fy * ((1 - fx) * texel(i, j + 1) + fx * texel(i + 1, j + 1));
 }
 
 TEST(SceneFromVTK, A2DFunctionIsReadAsOpenGLReadsItsTexture)
@@ -434,7 +477,7 @@ TEST(SceneFromVTK, A2DFunctionIsReadAsOpenGLReadsItsTexture)
             const double fx = x - i;
             const double fy = y - j;
             const double read = (1 - fy) * ((1 - fx) * node(i, j) + fx * node(i + 1, j)) +
-              fy * ((1 - fx) * node(i, j + 1) + fx * node(i + 1, j + 1));
+                                fy * ((1 - fx) * node(i, j + 1) + fx * node(i + 1, j + 1));
             ASSERT_NEAR(read, texture(pixels, width, height, u, g, channel), 1e-6)
               << width << height << " " << u << " " << g;
           }
@@ -569,8 +612,8 @@ TEST(SceneFromVTK, AMaskMustBeBytes)
 TEST(SceneFromVTK, AMaskMayBeOfCells)
 {
   Stage stage(ball_image(VTK_SHORT, 20, true));
-  const auto mask = image(20, 17, 22, VTK_UNSIGNED_CHAR,
-    [](int i, int, int, int) { return i % 2; }, 1, true);
+  const auto mask = image(
+    20, 17, 22, VTK_UNSIGNED_CHAR, [](int i, int, int, int) { return i % 2; }, 1, true);
   stage.mapper->SetMaskInput(mask);
   stage.mapper->SetMaskTypeToBinary();
   EXPECT_EQ(stage.first().mask.labels, mask->GetCellData()->GetScalars()->GetVoidPointer(0));

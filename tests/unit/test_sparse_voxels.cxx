@@ -28,8 +28,11 @@ double ball(int i, int j, int k, double radius)
 
 /// Checks each voxel of some places against value() in the source's coordinates.
 template <class Value>
-void expect_values(const SparseVoxels& sparse, const BrickPlace& lower, const BrickPlace& upper,
-  Value value, double tolerance = 0.0)
+void expect_values(const SparseVoxels& sparse,
+  const BrickPlace& lower,
+  const BrickPlace& upper,
+  Value value,
+  double tolerance = 0.0)
 {
   for (std::int32_t k = lower[2]; k <= upper[2]; ++k)
     for (std::int32_t j = lower[1]; j <= upper[1]; ++j)
@@ -62,9 +65,9 @@ TEST(Half, EveryHalfComesBack)
     }
     ASSERT_EQ(half_from_float(value), half) << value;
     const double exponent = half >> 10 & 31;
-    const double expected = exponent == 31 ? std::numeric_limits<double>::infinity()
-      : exponent == 0                      ? std::ldexp(half & 0x3ff, -24)
-                                           : std::ldexp(1024 + (half & 0x3ff), int(exponent) - 25);
+    const double expected = exponent == 31  ? std::numeric_limits<double>::infinity()
+                            : exponent == 0 ? std::ldexp(half & 0x3ff, -24)
+                                            : std::ldexp(1024 + (half & 0x3ff), int(exponent) - 25);
     ASSERT_EQ(value, half & 0x8000 ? -expected : expected);
   }
 }
@@ -113,7 +116,8 @@ TEST(SparseTable, FindsEachBrickAndNothingElse)
         for (int n = 0; n < 8; ++n)
         {
           const BrickPlace q{ { std::min(p[0] + (n & 1), width - 1),
-            std::min(p[1] + (n >> 1 & 1), width - 1), std::min(p[2] + (n >> 2), width - 1) } };
+            std::min(p[1] + (n >> 1 & 1), width - 1),
+            std::min(p[2] + (n >> 2), width - 1) } };
           places[morton(q)] = q;
         }
       }
@@ -145,14 +149,19 @@ TEST(SparseTable, FindsEachBrickAndNothingElse)
 
 TEST(SparseVoxels, HoldsEachTypesValues)
 {
-  for (VoxelType type : { VoxelType::UInt8, VoxelType::Int8, VoxelType::UInt16, VoxelType::Int16,
-         VoxelType::Float16, VoxelType::Float32 })
+  for (VoxelType type : { VoxelType::UInt8,
+         VoxelType::Int8,
+         VoxelType::UInt16,
+         VoxelType::Int16,
+         VoxelType::Float16,
+         VoxelType::Float32 })
   {
     const auto value = [](int i, int j, int k)
-    { return std::abs(i) < 12 && std::abs(j) < 9 && std::abs(k) < 5 ? (i + 2 * j + 3 * k + 60) % 120
-                                                                    : 7.0; };
-    const auto sparse =
-      make_sparse(type, { { -20, -20, -20 } }, { { 20, 20, 20 } }, 7.0, value);
+    {
+      return std::abs(i) < 12 && std::abs(j) < 9 && std::abs(k) < 5 ? (i + 2 * j + 3 * k + 60) % 120
+                                                                    : 7.0;
+    };
+    const auto sparse = make_sparse(type, { { -20, -20, -20 } }, { { 20, 20, 20 } }, 7.0, value);
     expect_values(*sparse, { { -24, -24, -24 } }, { { 24, 24, 24 } }, value);
     EXPECT_EQ(sparse->background(), 7.0);
     EXPECT_EQ(sparse->value(-1, 0, 0), 7.0);
@@ -180,7 +189,8 @@ TEST(SparseVoxels, TilesAreTheirValueAndShareABrick)
   SparseTopology topology;
   topology.bricks = { { { 0, 0, 0 } }, { { 17, 0, 0 } } };
   topology.tiles = { { { { 1, 0, 0 } }, { { 16, 15, 15 } }, 0.25 },
-    { { { 0, 1, 0 } }, { { 0, 1, 0 } }, 0.5 }, { { { 20, -4, 3 } }, { { 27, 3, 10 } }, 0.25 },
+    { { { 0, 1, 0 } }, { { 0, 1, 0 } }, 0.5 },
+    { { { 20, -4, 3 } }, { { 27, 3, 10 } }, 0.25 },
     { { { -700, -600, -512 } }, { { -189, -89, -1 } }, 3.0 } }; // a whole 4096³ voxels
   const auto value = [&](int i, int j, int k)
   {
@@ -214,8 +224,10 @@ TEST(SparseVoxels, TilesAreTheirValueAndShareABrick)
     const int i = near ? within(-20, 240) : within(-5800, 300);
     const int j = near ? within(-40, 140) : within(-5000, 200);
     const int k = near ? within(-20, 140) : within(-4300, 200);
-    ASSERT_NEAR(sparse.value(i - sparse.origin()[0], j - sparse.origin()[1], k - sparse.origin()[2]),
-      value(i, j, k), 1e-5)
+    ASSERT_NEAR(
+      sparse.value(i - sparse.origin()[0], j - sparse.origin()[1], k - sparse.origin()[2]),
+      value(i, j, k),
+      1e-5)
       << i << ' ' << j << ' ' << k;
   }
 }
@@ -240,7 +252,9 @@ TEST(SparseVoxels, RefusesWhatItCannotHold)
   topology.bricks = { { { 0, 0, 0 } }, { { 1 << 17, 0, 0 } } };
   EXPECT_THROW(make(topology), std::invalid_argument);
   topology.bricks = { { { 0, 0, 0 } } };
-  EXPECT_THROW(SparseVoxels(VoxelType::Float32, 0.0, topology,
+  EXPECT_THROW(SparseVoxels(VoxelType::Float32,
+                 0.0,
+                 topology,
                  [](std::size_t, void*) { throw std::runtime_error("cut short"); }),
     std::runtime_error);
 }
@@ -253,7 +267,8 @@ double noise(double x, double y, double z)
 {
   const auto at = [](int i, int j, int k)
   {
-    std::uint32_t h = unsigned(i) * 0x9e3779b1u ^ unsigned(j) * 0x85ebca77u ^ unsigned(k) * 0xc2b2ae3du;
+    std::uint32_t h =
+      unsigned(i) * 0x9e3779b1u ^ unsigned(j) * 0x85ebca77u ^ unsigned(k) * 0xc2b2ae3du;
     h = (h ^ h >> 15) * 0x2c1b3c6du;
     h = (h ^ h >> 12) * 0x297a2d39u;
     return (h >> 8) / double(1 << 23) - 1.0;
@@ -293,8 +308,10 @@ double cloud(int i, int j, int k)
 }
 
 /// Bytes that the grid takes for each voxel that is not 0, with a brick more at `far` (unless 0).
-double bytes_a_voxel(
-  const SparseTopology& compact, std::size_t active, const BrickPlace& far, const char* name)
+double bytes_a_voxel(const SparseTopology& compact,
+  std::size_t active,
+  const BrickPlace& far,
+  const char* name)
 {
   SparseTopology topology = compact;
   if (far[0] != 0)
@@ -323,7 +340,9 @@ std::size_t count_active(const SparseTopology& topology, Value value)
   return active;
 }
 
-const BrickPlace everywhere[] = { { { 0, 0, 0 } }, { { 12500, 0, 0 } }, { { 12500, 12500, 12500 } },
+const BrickPlace everywhere[] = { { { 0, 0, 0 } },
+  { { 12500, 0, 0 } },
+  { { 12500, 12500, 12500 } },
   { { -100000, 50000, 100000 } } };
 
 }
@@ -382,9 +401,9 @@ TEST(SparseBricks, NonFiniteVoxelsAreCountedAndInNoRange)
 {
   const auto value = [](int i, int j, int k)
   {
-    return i == 8 && j == 8 && k == 15 ? std::numeric_limits<double>::quiet_NaN()
-      : i == 31 && j == 0 && k == 0   ? -std::numeric_limits<double>::infinity()
-                                      : 1.0 + i;
+    return i == 8 && j == 8 && k == 15   ? std::numeric_limits<double>::quiet_NaN()
+           : i == 31 && j == 0 && k == 0 ? -std::numeric_limits<double>::infinity()
+                                         : 1.0 + i;
   };
   const auto sparse =
     make_sparse(VoxelType::Float32, { { 0, 0, 0 } }, { { 31, 31, 31 } }, 0.0, value);
@@ -415,7 +434,8 @@ TEST(SparseBricks, RangesStayFewInAWideBox)
     const auto near = [&](int middle, int around)
     { return middle + int(random() % unsigned(2 * around)) - around; };
     const bool at_ball = n % 2;
-    const int v[3] = { at_ball ? near(0, 47) : near(2460, 200), at_ball ? near(0, 47) : near(2520, 200),
+    const int v[3] = { at_ball ? near(0, 47) : near(2460, 200),
+      at_ball ? near(0, 47) : near(2520, 200),
       at_ball ? near(0, 47) : near(2460, 200) };
     int low[3], high[3]; // cubes that reach the voxel
     for (int a = 0; a < 3; ++a)
@@ -444,8 +464,8 @@ TEST(SparseBricks, RangesStayFewInAWideBox)
     at = at * ranges.dims[a] + ((8 * middle[a] - sparse.origin()[a]) >> ranges.shift);
   }
   EXPECT_EQ(ranges.maximum[at], 5.0f);
-  const VisibleBricks visible =
-    find_visible_bricks(ranges, [](float, float upper) { return upper > 0.0f; }, 0.0f);
+  const VisibleBricks visible = find_visible_bricks(
+    ranges, [](float, float upper) { return upper > 0.0f; }, 0.0f);
   EXPECT_EQ(visible.shift, ranges.shift);
   EXPECT_LT(visible.visible, ranges.size() / 20);
 }

@@ -25,7 +25,9 @@ Scene scene_of(const Voxels<float>& voxels, double threshold, double opacity = 0
 {
   Scene scene;
   scene.volumes[0].grid = voxels.grid();
-  scene.volumes[0].classification = classify(0.0, 1.0,
+  scene.volumes[0].classification = classify(
+    0.0,
+    1.0,
     [&](double v) { return opacity / (1.0 + std::exp(-(v - 0.5) * threshold)); },
     [](double v) { return glm::dvec3(1.0, 0.5 + 0.5 * v, 0.2); });
   scene.camera = view_of(scene, glm::dvec3(-0.5, 0.3, -0.9), false).camera(1.0);
