@@ -55,6 +55,7 @@ void Add(brume::MarchStatistics& sum, const brume::MarchStatistics& march)
   sum.threads = march.threads;
   sum.simd = march.simd;
   sum.step = march.step;
+  sum.rule = march.rule;
   sum.non_finite_voxels += march.non_finite_voxels;
   sum.bricks += march.bricks;
   sum.visible_bricks += march.visible_bricks;
@@ -197,14 +198,14 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& scene, brume::Film& film)
     if (key != this->Internal->LastStep)
     {
       const auto start = std::chrono::steady_clock::now();
-      this->Internal->Choice = brume::choose_step(
-        scene, std::max(StepShare * this->Tolerance, 1e-9), this->NumberOfThreads);
+      this->Internal->Choice = brume::choose_step(this->Internal->Marchers[0], scene,
+        std::max(StepShare * this->Tolerance, 1e-9), this->NumberOfThreads);
       this->Internal->LastStep = key;
       secondsStep =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
+    settings.rule = this->Internal->Choice.rule;
     settings.step = this->Internal->Choice.step;
-    settings.step_error = this->Internal->Choice.estimated_error;
   }
   else
   {
@@ -233,6 +234,7 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& scene, brume::Film& film)
   statistics["threads"] = march.threads;
   statistics["simd"] = march.simd;
   statistics["step"] = march.step;
+  statistics["step_rule"] = brume::step_rule_name(march.rule);
   statistics["step_in_voxels"] = march.step / brume::smallest_voxel_edge(scene);
   statistics["image_sample_distance"] = this->ImageSampleDistanceInUse;
   statistics["blend_mode"] = brume::blend_mode_name(scene.blend_mode);

@@ -134,6 +134,10 @@ private:
   {
     Real first, second;
   };
+  struct Four
+  {
+    Real before, first, second, after;
+  };
 
   HWY_INLINE Real value(const Cell& cell) const
   {
@@ -183,9 +187,52 @@ private:
   /// Trilinear interpolation commutes with differences: this is the interpolated gradient.
   HWY_INLINE Vec3<Real> gradient(const Cell& cell) const
   {
-    const Int before_x = hn::Max(cell.index[0] - integer(1), integer(0));
-    const Int after_x = hn::Min(cell.index[0] + integer(2), last(0));
-    // Rows −1, 0, 1, 2 along y and z: the middle four carry the slope along x.
+    // The cell's own rows, from the voxel before to the one after it along x.
+    Four rows[2][2];
+    // For each side of the cell the rows before and after it along y, and along z.
+    Pair beside_y[2][2];
+    Pair beside_z[2][2];
+    if (HWY_LIKELY(is_inside(cell)))
+    {
+      const Int offset = offset_of(cell.index);
+      const std::ptrdiff_t y = View.row[1];
+      const std::ptrdiff_t z = View.row[2];
+      for (int side = 0; side < 2; ++side)
+      {
+        rows[side][0] = four(offset, side * z);
+        rows[side][1] = four(offset, side * z + y);
+        beside_y[side][0] = pair<false>(offset, side * z - y);
+        beside_y[side][1] = pair<false>(offset, side * z + 2 * y);
+        beside_z[side][0] = pair<false>(offset, side * y - z);
+        beside_z[side][1] = pair<false>(offset, side * y + 2 * z);
+      }
+    }
+    else
+    {
+      const Int before_x = hn::Max(cell.index[0] - integer(1), integer(0));
+      const Int after_x = hn::Min(cell.index[0] + integer(2), last(0));
+      for (int side = 0; side < 2; ++side)
+      {
+        for (int y = 0; y < 2; ++y)
+        {
+          const Int j = row(cell, 1, y);
+          const Int k = row(cell, 2, side);
+          const Pair here = safe_pair(cell.index[0], j, k);
+          rows[side][y] = { single(before_x, j, k), here.first, here.second,
+            single(after_x, j, k) };
+        }
+        for (int after = 0; after < 2; ++after)
+        {
+          const int beyond = after ? 2 : -1;
+          beside_y[side][after] =
+            safe_pair(cell.index[0], row(cell, 1, beyond), row(cell, 2, side));
+          beside_z[side][after] =
+            safe_pair(cell.index[0], row(cell, 1, side), row(cell, 2, beyond));
+        }
+      }
+    }
+
+    const Real* fraction = cell.fraction;
     Real middle[2][2];
     Real slope_x[2];
     for (int z = 0; z < 2; ++z)
@@ -193,30 +240,21 @@ private:
       Real slope[2];
       for (int y = 0; y < 2; ++y)
       {
-        const Int j = row(cell, 1, y);
-        const Int k = row(cell, 2, z);
-        const Pair here = safe_pair(cell.index[0], j, k);
-        const Real before = single(before_x, j, k);
-        const Real after = single(after_x, j, k);
-        middle[z][y] = lerp(here.first, here.second, cell.fraction[0]);
-        slope[y] = lerp(here.second - before, after - here.first, cell.fraction[0]);
+        const Four& r = rows[z][y];
+        middle[z][y] = lerp(r.first, r.second, fraction[0]);
+        slope[y] = lerp(r.second - r.before, r.after - r.first, fraction[0]);
       }
-      slope_x[z] = lerp(slope[0], slope[1], cell.fraction[1]);
+      slope_x[z] = lerp(slope[0], slope[1], fraction[1]);
     }
     Real slope_y[2];
     Real slope_z[2];
+    const auto along_x = [&](const Pair& p) { return lerp(p.first, p.second, fraction[0]); };
     for (int side = 0; side < 2; ++side)
     {
-      const Int k = row(cell, 2, side);
-      const Real y_before = edge(cell, row(cell, 1, -1), k);
-      const Real y_after = edge(cell, row(cell, 1, 2), k);
-      slope_y[side] =
-        lerp(middle[side][1] - y_before, y_after - middle[side][0], cell.fraction[1]);
-      const Int j = row(cell, 1, side);
-      const Real z_before = edge(cell, j, row(cell, 2, -1));
-      const Real z_after = edge(cell, j, row(cell, 2, 2));
-      slope_z[side] =
-        lerp(middle[1][side] - z_before, z_after - middle[0][side], cell.fraction[2]);
+      slope_y[side] = lerp(middle[side][1] - along_x(beside_y[side][0]),
+        along_x(beside_y[side][1]) - middle[side][0], fraction[1]);
+      slope_z[side] = lerp(middle[1][side] - along_x(beside_z[side][0]),
+        along_x(beside_z[side][1]) - middle[0][side], fraction[2]);
     }
     const Real half = real(0.5f);
     return { lerp(slope_x[0], slope_x[1], cell.fraction[2]) * half,
@@ -232,10 +270,20 @@ private:
     return hn::Min(hn::Max(cell.index[axis] + integer(offset), integer(0)), last(axis));
   }
 
-  HWY_INLINE Real edge(const Cell& cell, Int j, Int k) const
+  /// Whether all that gradients read lies within the grid, for all lanes.
+  HWY_INLINE bool is_inside(const Cell& cell) const
   {
-    const Pair pair = safe_pair(cell.index[0], j, k);
-    return lerp(pair.first, pair.second, cell.fraction[0]);
+    if (HWY_UNLIKELY(View.far))
+    {
+      return false;
+    }
+    auto beyond = cell.index[0] > integer(View.last[0] - 2);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      beyond = hn::Or(beyond, cell.index[axis] < integer(1));
+      beyond = hn::Or(beyond, cell.index[axis] > integer(View.last[axis] - 2));
+    }
+    return hn::AllFalse(int_tag, beyond);
   }
 
   HWY_INLINE Int offset_of(const Int index[3]) const
@@ -279,6 +327,24 @@ private:
     {
       const auto next = further + static_cast<std::ptrdiff_t>(View.stride[0]);
       return { unpack<0>(bits), unpack<0>(word<Checked>(offset, next)) };
+    }
+  }
+
+  /// The voxel before a place along x, the pair there, and the one after. All must be within the
+  /// grid: words that reach beyond a row's end still are.
+  HWY_INLINE Four four(Int offset, std::ptrdiff_t further) const
+  {
+    const auto stride = static_cast<std::ptrdiff_t>(View.stride[0]);
+    if constexpr (SecondBit == 8)
+    {
+      const Int bits = word<false>(offset, further - stride);
+      return { unpack<0>(bits), unpack<8>(bits), unpack<16>(bits), unpack<24>(bits) };
+    }
+    else
+    {
+      const Pair low = pair<false>(offset, further - stride);
+      const Pair high = pair<false>(offset, further + stride);
+      return { low.first, low.second, high.first, high.second };
     }
   }
 

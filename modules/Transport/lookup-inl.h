@@ -38,19 +38,30 @@ public:
     return (value - real(Table.lower)) * real(Table.scale);
   }
 
-  HWY_INLINE Classified at(Real position) const { return at(position, hn::Zero(int_tag)); }
-  /// `first` is the first node of the classification, for each lane.
-  HWY_INLINE Classified at(Real position, Int first) const
+  /// Where a position is, between two nodes.
+  struct Place
   {
-    const Place place = locate(position, first);
-    const float* nodes = &Table.nodes[0].red;
-    return { { channel<0>(nodes, place), channel<1>(nodes, place), channel<2>(nodes, place) },
-      channel<3>(nodes, place) };
-  }
+    Int offset; ///< of the lower node, in floats
+    Real fraction;
+  };
 
-  HWY_INLINE Real extinction(Real position) const
+  /// `first` is the first node of the classification, for each lane.
+  HWY_INLINE Place locate(Real position, Int first) const
   {
-    return channel<3>(&Table.nodes[0].red, locate(position, hn::Zero(int_tag)));
+    const Real inside = clamp(position, hn::Zero(float_tag), real(Last));
+    const Int index = hn::Min(hn::ConvertTo(int_tag, inside), integer(Table.intervals - 1));
+    return { hn::ShiftLeft<2>(index + first), inside - hn::ConvertTo(float_tag, index) };
+  }
+  HWY_INLINE Place locate(Real position) const { return locate(position, hn::Zero(int_tag)); }
+
+  HWY_INLINE Real extinction(const Place& place) const
+  {
+    return channel<3>(&Table.nodes[0].red, place);
+  }
+  HWY_INLINE Vec3<Real> colour(const Place& place) const
+  {
+    const float* nodes = &Table.nodes[0].red;
+    return { channel<0>(nodes, place), channel<1>(nodes, place), channel<2>(nodes, place) };
   }
 
   /// The number of the stretch of even slopes that a position lies in.
@@ -70,7 +81,7 @@ public:
   /// functions go on as constants.
   HWY_INLINE Classified integral(Real position) const
   {
-    const Place place = locate(position, hn::Zero(int_tag));
+    const Place place = locate(position);
     const float* sums = &Table.integrals[0].red;
     const Real below = hn::Min(position, hn::Zero(float_tag));
     const Real above = max(position - real(Last), hn::Zero(float_tag));
@@ -140,19 +151,6 @@ public:
   }
 
 private:
-  struct Place
-  {
-    Int offset;
-    Real fraction;
-  };
-
-  HWY_INLINE Place locate(Real position, Int first) const
-  {
-    const Real inside = clamp(position, hn::Zero(float_tag), real(Last));
-    const Int index = hn::Min(hn::ConvertTo(int_tag, inside), integer(Table.intervals - 1));
-    return { hn::ShiftLeft<2>(index + first), inside - hn::ConvertTo(float_tag, index) };
-  }
-
   template <int Channel>
   static HWY_INLINE Real channel(const float* nodes, const Place& place)
   {

@@ -36,6 +36,10 @@ public:
     const Leaper leaper(Volume.bricks, rays.lines[0]);
     State state;
     state.end = rays.end;
+    if constexpr (Gradient)
+    {
+      state.viewer = toward_viewer(Volume.shade, rays.lines[0]);
+    }
     std::uint64_t samples = 0;
     bool fresh = true; // the values before this step are not known
     bool empty = true; // nothing was met in the last steps: look for bricks to leap over
@@ -98,6 +102,7 @@ private:
     Real depth;        ///< of the step before
     Real depth_before; ///< Midpoint: of the one before that
     Int stretch;       ///< Integrated: the table's stretch of `value`
+    Vec3<Real> viewer; ///< Gradient: unit vectors of the world toward the viewer
 
     HWY_INLINE State()
       : step(hn::Zero(float_tag))
@@ -156,17 +161,23 @@ private:
     return 0;
   }
 
-  /// What a step holds: the means of extinction and colour, and how the step may be wrong.
+  /// What a step holds.
   struct Step
   {
-    Classified matter;
-    Real centre; ///< where most of it is, in steps from the step's beginning
-    Real depth_error;
+    Real extinction;     ///< the mean
+    Real centre;         ///< where most of it is, as a fraction of the step
+    Lookup::Place entry; ///< where the table has the colour, but for
+    Mask crossing;       ///< lanes that have it
+    Vec3<Real> mean;     ///< here
   };
 
   HWY_INLINE Step midpoint(Real value) const
   {
-    return { Table.at(value), real(0.5f), hn::Zero(float_tag) };
+    Step step;
+    step.entry = Table.locate(value);
+    step.extinction = Table.extinction(step.entry);
+    step.centre = real(0.5f);
+    return step;
   }
 
   HWY_INLINE Step integrated(Real to, Mask active, State& state) const
@@ -177,22 +188,20 @@ private:
     const Int stretch = Table.stretch(to);
     // Within one stretch the entry half-way is the mean; so it is, nearly, over a small difference,
     // where that of the integrals would have lost its digits.
-    const Mask crossing = hn::And(hn::And(active, hn::Abs(difference) > real(2.0f)),
+    result.crossing = hn::And(hn::And(active, hn::Abs(difference) > real(2.0f)),
       hn::RebindMask(float_tag, hn::Ne(stretch, state.stretch)));
+    const Mask crossing = result.crossing;
     if (!hn::AllFalse(float_tag, crossing))
     {
       const Classified mean = Lookup::mean(
         Table.integral(from), Table.integral(to), hn::IfThenElse(crossing, difference, real(1.0f)));
-      Classified& matter = result.matter;
-      matter.extinction = select(crossing, mean.extinction, matter.extinction);
-      matter.colour.x = select(crossing, mean.colour.x, matter.colour.x);
-      matter.colour.y = select(crossing, mean.colour.y, matter.colour.y);
-      matter.colour.z = select(crossing, mean.colour.z, matter.colour.z);
+      result.extinction = select(crossing, mean.extinction, result.extinction);
+      result.mean = mean.colour;
       if constexpr (Gradient)
       {
         // The centre of an extinction that runs evenly between the ends'.
-        const Real a = Table.extinction(from);
-        const Real b = Table.extinction(to);
+        const Real a = Table.extinction(Table.locate(from));
+        const Real b = Table.extinction(Table.locate(to));
         const Real sum = a + b;
         const Mask some = sum > hn::Zero(float_tag);
         const Real centre = (a + b + b) / hn::IfThenElse(some, sum * real(3.0f), real(1.0f));
@@ -212,15 +221,22 @@ private:
   {
     const Real begin = step_begin(rays, state.step);
     const Real length = step_end(rays, state.step) - begin;
-    Step step = rule == StepRule::Integrated ? integrated(value, active, state) : midpoint(value);
-    Real depth = hn::IfThenElseZero(active, step.matter.extinction * length * real(DepthScale));
+    const Step step =
+      rule == StepRule::Integrated ? integrated(value, active, state) : midpoint(value);
+    Real depth = hn::IfThenElseZero(active, step.extinction * length * real(DepthScale));
     estimate_error(value, depth, state, gathered);
     if (hn::AllFalse(float_tag, depth > hn::Zero(float_tag)))
     {
       return false;
     }
     const Real centre = hn::MulAdd(step.centre, length, begin);
-    Vec3<Real> colour = step.matter.colour;
+    Vec3<Real> colour = Table.colour(step.entry);
+    if constexpr (rule == StepRule::Integrated)
+    {
+      colour.x = select(step.crossing, step.mean.x, colour.x);
+      colour.y = select(step.crossing, step.mean.y, colour.y);
+      colour.z = select(step.crossing, step.mean.z, colour.z);
+    }
     if constexpr (Gradient)
     {
       Vec3<Real> gradient;
@@ -231,7 +247,7 @@ private:
       }
       if (Volume.shade.enabled)
       {
-        colour = shaded(Volume.shade, rays.lines[0], centre, gradient, colour);
+        colour = shaded(Volume.shade, rays.lines[0], state.viewer, centre, gradient, colour);
       }
     }
     // A stretch of constant source and extinction: S (1 − e^(−τ)), seen through what is in front.

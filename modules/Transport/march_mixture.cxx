@@ -55,6 +55,7 @@ public:
     const Lookup table(*Volume.table);
     Vec3<Real> gradient{ zero, zero, zero };
     Classified matter;
+    Lookup::Place place;
     if (Volume.table->columns > 0)
     {
       Functions.gradient(Volume.field, line.at(position), gradient);
@@ -70,16 +71,17 @@ public:
         shown = hn::And(shown, hn::RebindMask(float_tag, first > integer(-1)));
         first = hn::Max(first, hn::Zero(int_tag));
       }
-      matter = table.at(table.position(value), first);
-      matter.extinction = hn::IfThenElseZero(shown, matter.extinction);
+      place = table.locate(table.position(value), first);
+      matter.extinction = hn::IfThenElseZero(shown, table.extinction(place));
     }
     Real depth = matter.extinction * scale;
     if (hn::AllFalse(float_tag, depth > zero))
     {
       return depth;
     }
-    colour =
-      Volume.colour == VoxelColour::Value ? matter.colour : voxel_colour(table, line, position);
+    colour = Volume.colour != VoxelColour::Value ? voxel_colour(table, line, position)
+      : Volume.table->columns > 0                ? matter.colour
+                                                 : table.colour(place);
     if (Volume.needs_gradient)
     {
       if (Volume.table->columns == 0)
@@ -92,7 +94,8 @@ public:
       }
       if (Volume.shade.enabled)
       {
-        colour = shaded(Volume.shade, line, position, gradient, colour);
+        const Vec3<Real> viewer = toward_viewer(Volume.shade, line);
+        colour = shaded(Volume.shade, line, viewer, position, gradient, colour);
       }
     }
     return depth;
@@ -117,7 +120,7 @@ private:
     }
     if (Volume.colour == VoxelColour::First)
     {
-      return table.at(table.position(component[0])).colour;
+      return table.colour(table.locate(table.position(component[0])));
     }
     const Real scale = real(1.0f / 255.0f);
     return { component[0] * scale, component[1] * scale, component[2] * scale };

@@ -356,6 +356,20 @@ MarchStatistics Marcher::render(
   return statistics;
 }
 
+const char* step_rule_name(StepRule rule)
+{
+  switch (rule)
+  {
+    case StepRule::Midpoint:
+      return "midpoint";
+    case StepRule::Integrated:
+      return "integrated";
+    case StepRule::Cells:
+      return "cells";
+  }
+  return "";
+}
+
 std::string simd_targets()
 {
   std::string names;

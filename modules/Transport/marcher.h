@@ -27,6 +27,9 @@ enum class StepRule
   Cells,
 };
 
+/// "midpoint", "integrated" or "cells".
+const char* step_rule_name(StepRule rule);
+
 /// How a picture is to be made.
 struct MarchSettings
 {
@@ -37,7 +40,7 @@ struct MarchSettings
   /// The largest error of a pixel, as a fraction of white, that may be made by ending rays early;
   /// ≥ 0. A ray is left when all that is behind could not change its pixel by more.
   double leave_error = 0.001;
-  /// What the caller expects the step to cost in accuracy; added to Film::error. ≥ 0.
+  /// An error of the picture that the caller knows of; added to Film::error. ≥ 0.
   double step_error = 0.0;
   /// Rays begin within their first step at a place that differs from pixel to pixel: long steps
   /// then show as grain rather than as bands. The same in every picture.

@@ -52,17 +52,41 @@ HWY_INLINE Real lerp(Real a, Real b, Real fraction)
 {
   return hn::MulAdd(fraction, b - a, a);
 }
-/// 1/√x, and 0 where x is not positive.
+/// 1/√x, and 0 where x is not positive. The processor's guess, twice refined after Newton: within
+/// two units in the last place.
 HWY_INLINE Real rsqrt_or_zero(Real x)
 {
-  const Mask positive = x > hn::Zero(float_tag);
-  return hn::IfThenElseZero(
-    positive, real(1.0f) / hn::Sqrt(hn::IfThenElse(positive, x, real(1.0f))));
+  // Outside of these bounds the guess may be infinite or 0.
+  const Mask positive = x > real(1e-37f);
+  const Real safe = hn::Min(hn::IfThenElse(positive, x, real(1.0f)), real(1e37f));
+  const Real half = safe * real(0.5f);
+  Real guess = hn::ApproximateReciprocalSqrt(safe);
+  for (int i = 0; i < 2; ++i)
+  {
+    guess = guess * hn::NegMulAdd(half * guess, guess, real(1.5f));
+  }
+  return hn::IfThenElseZero(positive, guess);
 }
 /// x^exponent for x > 0.
 HWY_INLINE Real pow(Real x, float exponent)
 {
-  return hn::Exp(float_tag, real(exponent) * hn::Log(float_tag, x));
+  const int whole = static_cast<int>(exponent >= 0.0f && exponent <= 128.0f ? exponent : 0.0f);
+  if (static_cast<float>(whole) != exponent)
+  {
+    return hn::Exp(float_tag, real(exponent) * hn::Log(float_tag, x));
+  }
+  // By squares: the specular powers that people use are whole.
+  Real result = real(1.0f);
+  Real square = x;
+  for (int bits = whole; bits > 0; bits >>= 1)
+  {
+    if (bits & 1)
+    {
+      result = result * square;
+    }
+    square = square * square;
+  }
+  return result;
 }
 /// 1 − exp(−x) for x ≥ 0, without cancellation (see opacity_from_optical_depth in optics.h).
 HWY_INLINE Real opacity_from_optical_depth(Real x)

@@ -1,13 +1,13 @@
 #include "Transport/step_control.h"
 
-#include "Transport/reference.h"
-
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 namespace brume
@@ -15,9 +15,15 @@ namespace brume
 
 double smallest_voxel_edge(const Scene& scene)
 {
-  double edge = glm::length(glm::dvec3(scene.volumes[0].data_from_index[0]));
-  edge = std::min(edge, glm::length(glm::dvec3(scene.volumes[0].data_from_index[1])));
-  return std::min(edge, glm::length(glm::dvec3(scene.volumes[0].data_from_index[2])));
+  double edge = std::numeric_limits<double>::infinity();
+  for (const Volume& volume : scene.volumes)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      edge = std::min(edge, glm::length(glm::dvec3(volume.data_from_index[axis])));
+    }
+  }
+  return edge;
 }
 
 namespace
@@ -63,44 +69,119 @@ glm::dmat4 zoomed_to_grid(const Scene& scene)
 
 }
 
-StepChoice choose_step(const Scene& scene, double tolerance, int threads)
+namespace
 {
-  Scene probe = scene;
-  probe.surface_depth.clear();
-  probe.camera.clip_from_world = zoomed_to_grid(scene);
-  constexpr int probes_x = 16;
-  constexpr int probes_y = 16;
 
-  // Rays end where what is behind cannot matter to the estimate.
-  const double leave_below = std::min(0.01 * tolerance, 1e-4);
-  StepChoice choice;
-  choice.step = 2.0 * smallest_voxel_edge(scene);
-  Film longer(probes_x, probes_y);
-  Film shorter(probes_x, probes_y);
-  render_fixed_step(probe, choice.step, SamplePlacement::Middle, leave_below, threads, longer);
-  constexpr int halvings = 6;
-  for (int i = 0;; ++i)
+constexpr int probes = 64; ///< along each side of the picture
+constexpr double longest = 4.0;
+constexpr double shortest = 1.0 / 32.0;
+/// The largest error of all pixels is larger than that of the rays that were looked at.
+constexpr double unseen = 1.5;
+/// What one sample of the rule costs, in samples of the midpoint rule, and how many samples the
+/// crossing of a voxel takes cell by cell.
+constexpr double cost_of_integrated = 1.6;
+constexpr double samples_by_cells = 3.5;
+
+/// A few rays of a scene, marched with one step after another.
+class Probe
+{
+public:
+  Probe(Marcher& marcher, const Scene& scene, double tolerance, int threads)
+    : TheMarcher(marcher)
+    , TheScene(scene)
+    , Edge(smallest_voxel_edge(scene))
   {
-    render_fixed_step(probe, 0.5 * choice.step, SamplePlacement::Middle, leave_below, threads, shorter);
+    this->TheScene.surface_depth.clear();
+    this->TheScene.camera.clip_from_world = zoomed_to_grid(scene);
+    this->Settings.threads = threads;
+    // Rays end where what is behind cannot matter to the estimate.
+    this->Settings.leave_error = std::min(0.01 * tolerance, 1e-4);
+  }
+
+  Film march(StepRule rule, double step)
+  {
+    Film film(probes, probes);
+    this->Settings.rule = rule;
+    this->Settings.step = step * this->Edge;
+    this->TheMarcher.render(this->TheScene, this->Settings, film);
+    return film;
+  }
+
+  static double change(const Film& a, const Film& b)
+  {
     double change = 0.0;
-    for (std::size_t pixel = 0; pixel < longer.size(); ++pixel)
+    for (std::size_t pixel = 0; pixel < a.size(); ++pixel)
     {
       for (int c = 0; c < 3; ++c)
       {
-        change = std::max({ change,
-          std::abs(double(longer.radiance[c][pixel]) - shorter.radiance[c][pixel]),
-          std::abs(double(longer.transmittance[c][pixel]) - shorter.transmittance[c][pixel]) });
+        change =
+          std::max({ change, std::abs(double(a.radiance[c][pixel]) - b.radiance[c][pixel]),
+            std::abs(double(a.transmittance[c][pixel]) - b.transmittance[c][pixel]) });
       }
     }
-    choice.estimated_error = 4.0 / 3.0 * change;
+    return change;
+  }
+
+private:
+  Marcher& TheMarcher;
+  Scene TheScene;
+  double Edge;
+  MarchSettings Settings;
+};
+
+}
+
+StepChoice choose_step(Marcher& marcher, const Scene& scene, double tolerance, int threads)
+{
+  Probe probe(marcher, scene, tolerance, threads);
+  StepChoice choice;
+  double step = longest; // in voxel edges
+  Film longer = probe.march(StepRule::Midpoint, step);
+  Film shorter;
+  for (;;)
+  {
+    shorter = probe.march(StepRule::Midpoint, 0.5 * step);
+    choice.estimated_error = unseen * 4.0 / 3.0 * Probe::change(longer, shorter);
     choice.met = choice.estimated_error <= tolerance;
-    if (choice.met || i == halvings)
+    if (choice.met || step <= shortest)
     {
-      return choice;
+      break;
     }
-    choice.step *= 0.5;
+    step *= 0.5;
     std::swap(longer, shorter);
   }
+  if (choice.met && step < longest)
+  {
+    // Twice the step would be too long; some of it is not. Toward longer steps the error may grow
+    // faster than with the square: the cube is on the safe side.
+    const double room = tolerance / std::max(choice.estimated_error, 0.125 * tolerance);
+    const double factor = std::min(std::cbrt(room), 1.999);
+    step *= factor;
+    choice.estimated_error *= factor * factor * factor;
+  }
+  // `shorter` is the finest picture at hand: what another rule makes of a longer step is measured
+  // against it.
+  if (follows_rule(scene, StepRule::Integrated) && step < 0.5 * longest)
+  {
+    const double other = cost_of_integrated * step;
+    const double error =
+      unseen * Probe::change(probe.march(StepRule::Integrated, other), shorter);
+    if (error < choice.estimated_error && (error <= tolerance || !choice.met))
+    {
+      choice.rule = StepRule::Integrated;
+      choice.estimated_error = error;
+      step = other;
+    }
+  }
+  if (follows_rule(scene, StepRule::Cells) && step < 1.0 / samples_by_cells)
+  {
+    choice.rule = StepRule::Cells;
+    choice.estimated_error = 1e-5; // rounding
+    step = 1.0;
+  }
+  choice.met = choice.estimated_error <= tolerance;
+  choice.step = step * smallest_voxel_edge(scene);
+  return choice;
 }
 
 }

@@ -1,28 +1,34 @@
-// Choosing the step of a march from the error that is accepted.
+// Choosing the steps of a march from the error that is accepted.
 #pragma once
 
+#include "Transport/marcher.h"
 #include "Transport/scene.h"
 
 namespace brume
 {
 
-/// A step and what it is expected to cost in accuracy.
+/// Steps, and what they are expected to cost in accuracy.
 struct StepChoice
 {
+  StepRule rule = StepRule::Midpoint;
   double step = 1.0;            ///< in the data's units
   double estimated_error = 0.0; ///< largest error of a pixel, as a fraction of white
   bool met = false;             ///< whether the estimate is within the tolerance asked for
 };
 
-/// The longest of 2, 1, ½, … and 1/32 of the smallest voxel edge with which the picture's largest
-/// error is expected to be within `tolerance` (a fraction of white, > 0); 1/32 where none is.
+/// The cheapest steps with which the picture's largest error is expected to be within `tolerance` (a
+/// fraction of white, > 0): between 4 and 1/32 of the smallest voxel edge, by the rule that needs the
+/// fewer samples; the shortest where none is expected to do.
 ///
-/// The expectation is measured: 256 rays of the scene's camera, spread evenly over the volume's own
-/// outline whatever part of it is in the picture, are integrated in double precision with each step and with half of it. The midpoint rule's error
-/// falls with the square of the step, so that 4/3 of the largest change is the error of the longer.
-StepChoice choose_step(const Scene& scene, double tolerance, int threads = 0);
+/// The expectation is measured with the kernels themselves: 4096 rays of the scene's camera, spread
+/// evenly over the volume's own outline whatever part of it is in the picture, are marched with steps
+/// of 4, 2, 1, … voxel edges. The midpoint rule's error falls with the square of the step, so that 4/3
+/// of the largest change by a halving is the error of the longer step; half of that again is added for
+/// the rays that were not looked at. Steps between two halvings are taken with an error that grows
+/// with the cube. The marcher's caches are brought up to date for the scene, and used.
+StepChoice choose_step(Marcher& marcher, const Scene& scene, double tolerance, int threads = 0);
 
-/// The smallest edge of a voxel, in the data's units.
+/// The smallest edge of a voxel of any of the volumes, in the data's units.
 double smallest_voxel_edge(const Scene& scene);
 
 }

@@ -25,9 +25,17 @@ HWY_INLINE Real gradient_magnitude(const VolumeTask& volume, const Vec3<Real>& g
   return hn::Sqrt(dot(scaled, scaled));
 }
 
-/// The light that matter of a colour sends toward the viewer at a place of a line.
+/// The unit vectors of the world from places on a line toward its viewer.
+HWY_INLINE Vec3<Real> toward_viewer(const ShadeModel& model, const Line& line)
+{
+  const Vec3<Real> along = multiply(model.world_from_index, 4, line.delta);
+  return -(along * rsqrt_or_zero(dot(along, along)));
+}
+
+/// The light that matter of a colour sends to the viewer from a place of a line.
 HWY_INLINE Vec3<Real> shaded(const ShadeModel& model,
   const Line& line,
+  const Vec3<Real>& viewer,
   Real position,
   const Vec3<Real>& gradient,
   const Vec3<Real>& colour)
@@ -38,8 +46,6 @@ HWY_INLINE Vec3<Real> shaded(const ShadeModel& model,
   slope = { hn::IfThenElseZero(finite, slope.x),
     hn::IfThenElseZero(finite, slope.y),
     hn::IfThenElseZero(finite, slope.z) };
-  Vec3<Real> along = multiply(model.world_from_index, 4, line.delta);
-  along = along * rsqrt_or_zero(dot(along, along));
   Vec3<Real> world = line.delta;
   if (model.needs_place)
   {
@@ -48,7 +54,7 @@ HWY_INLINE Vec3<Real> shaded(const ShadeModel& model,
     world.y = world.y + real(model.world_from_index[7]);
     world.z = world.z + real(model.world_from_index[11]);
   }
-  return shade<Real>(model, slope, -along, world, colour);
+  return shade<Real>(model, slope, viewer, world, colour);
 }
 
 }
