@@ -217,7 +217,16 @@ vtkSmartPointer<vtkImageData> open_mask(
   {
     return nullptr;
   }
-  const Input file = open_input_with_bar(options.mask, quiet);
+  if (!input)
+  {
+    throw Failure("--mask", "a sparse volume has no lattice of voxels to mask",
+      "leave it out, or mask a dense volume", BadCall);
+  }
+  const Input file = open_input_with_bar(options.mask, std::string(), quiet);
+  if (!file.image)
+  {
+    throw Failure(options.mask, "the mask is a sparse volume", "take a dense one");
+  }
   vtkDataArray* values = file.image->GetPointData()->GetScalars();
   int dims[3];
   int wanted[3];

@@ -157,7 +157,8 @@ StepChoice choose_step(Marcher& marcher, const Scene& scene, double tolerance, i
     const double room = tolerance / std::max(choice.estimated_error, 0.125 * tolerance);
     const double factor = std::min(std::cbrt(room), 1.999);
     step *= factor;
-    choice.estimated_error *= factor * factor * factor;
+    choice.estimated_error =
+      std::min(choice.estimated_error * factor * factor * factor, tolerance);
   }
   // `shorter` is the finest picture at hand: what another rule makes of a longer step is measured
   // against it.
