@@ -21,6 +21,10 @@
 #include "atomic_file.h"
 #include "film_io.h"
 
+#include "Transport/sparse_voxels.h"
+
+#include "vtkBrumeSparseVolume.h"
+
 #include "vtkCamera.h"
 #include "vtkImageData.h"
 #include "vtkVolume.h"
@@ -130,8 +134,19 @@ SceneDescription describe(const VolumeScene& scene, double step)
   const std::string& unit = scene.input.length_unit;
   vtkVolumeProperty* property = scene.volume->GetProperty();
   d.input = scene.input.name;
-  scene.input.image->GetDimensions(d.dimensions.data());
-  scene.input.image->GetSpacing(d.spacing.data());
+  if (vtkBrumeSparseVolume* sparse = scene.input.sparse)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      d.dimensions[axis] = sparse->GetVoxels()->dims()[axis] - sparse->GetVoxels()->first()[axis];
+    }
+    sparse->GetSpacing(d.spacing.data());
+  }
+  else
+  {
+    scene.input.image->GetDimensions(d.dimensions.data());
+    scene.input.image->GetSpacing(d.spacing.data());
+  }
   d.unit = unit;
   d.preset = scene.preset->name;
   d.width = scene.width();
@@ -227,6 +242,11 @@ void run(const Options& options)
 {
   const std::vector<MapperName> wanted = wanted_mappers(options);
   check(options.scene.modes);
+  if (options.scene.extinction > 0.0)
+  {
+    throw Failure("--extinction", "VTK's own mappers do not draw densities",
+      "leave it out, or use brume render", BadCall);
+  }
   if (!options.scene.preset.empty())
   {
     find_preset(options.scene.preset);
@@ -250,11 +270,18 @@ void run(const Options& options)
     std::string cannot = not_drawn_by(options.scene.modes, mapper.kind);
     if (cannot.empty() && mapper.kind != MapperKind::RayMarch)
     {
-      if (!display)
+      if (scene.input.sparse)
+      {
+        cannot = "it would need the volume dense";
+      }
+      else if (!display)
       {
         display.emplace();
       }
-      cannot = display->available() ? std::string() : display->reason();
+      if (cannot.empty() && display && !display->available())
+      {
+        cannot = display->reason();
+      }
     }
     if (!cannot.empty())
     {

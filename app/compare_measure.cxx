@@ -78,7 +78,7 @@ ComparisonMeasure::ComparisonMeasure(const VolumeScene& scene, double step, int 
   , Step(step)
   , Repetitions(repetitions)
 {
-  this->Mapper->SetInputData(scene.input.image);
+  this->Mapper->SetInputDataObject(scene.input.data());
   this->Mapper->SetTolerance(scene.options.tolerance);
   this->Mapper->SetNumberOfThreads(scene.options.threads);
   this->Mapper->AutoAdjustSampleDistancesOff();

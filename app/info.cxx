@@ -8,9 +8,14 @@
 #include "atomic_file.h"
 #include "orientation.h"
 
+#include "Transport/sparse_voxels.h"
+
+#include "vtkBrumeSparseVolume.h"
+
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
 #include "vtkMatrix3x3.h"
+#include "vtkMatrix4x4.h"
 #include "vtkPointData.h"
 
 #include <CLI/CLI.hpp>
@@ -32,6 +37,7 @@ using Json = nlohmann::ordered_json;
 struct Options
 {
   std::string input;
+  std::string grid;
   std::string json;
   bool quiet = false;
 };
@@ -70,6 +76,85 @@ std::string memory_size(double bytes)
 Json finite(double value)
 {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+/// What is told of every volume's values.
+void add_values(const Input& input, const VolumeSummary& summary, Json& j)
+{
+  j["non_finite_voxels"] = summary.non_finite;
+  Json percentiles = Json::object();
+  for (std::size_t i = 0; i < summary.percentiles.size(); ++i)
+  {
+    percentiles["p" + std::to_string(percents()[i])] = finite(summary.percentiles[i]);
+  }
+  j["percentiles"] = percentiles;
+  j["histogram"] = { { "minimum", finite(summary.minimum) },
+    { "bin_width", finite(summary.bin_width) }, { "counts", summary.histogram } };
+  j["messages"] = input.messages;
+}
+
+/// Of a sparse volume, with the same keys where they have a meaning.
+Json describe_sparse(const Input& input, const VolumeSummary& summary)
+{
+  vtkBrumeSparseVolume* volume = input.sparse;
+  const SparseVoxels& voxels = *volume->GetVoxels();
+  const vtkMatrix4x4* matrix = volume->GetIndexToWorld();
+  double spacing[3];
+  volume->GetSpacing(spacing);
+  // The box of what is stored, without the background around it.
+  double first[4] = { 0, 0, 0, 1 };
+  double middle[3];
+  int dimensions[3];
+  for (int a = 0; a < 3; ++a)
+  {
+    const int lower = voxels.first()[a] + 1;
+    dimensions[a] = voxels.dims()[a] - 1 - lower;
+    first[a] = voxels.origin()[a] + lower;
+    middle[a] = lower + dimensions[a] / 2;
+  }
+  double corner[4];
+  volume->GetIndexToWorld()->MultiplyPoint(first, corner);
+
+  Json j;
+  j["name"] = input.name;
+  j["format"] = input.format;
+  j["grid"] = volume->GetName();
+  j["grids"] = input.grids;
+  j["dimensions"] = { dimensions[0], dimensions[1], dimensions[2] };
+  j["spacing"] = { spacing[0], spacing[1], spacing[2] };
+  j["length_unit"] = input.length_unit;
+  j["physical_size"] = Json::array();
+  for (int a = 0; a < 3; ++a)
+  {
+    j["physical_size"].push_back(finite(dimensions[a] * spacing[a]));
+  }
+  j["origin"] = { finite(corner[0]), finite(corner[1]), finite(corner[2]) };
+  j["patient_axes"] = false;
+  j["orientation"] = nullptr;
+  j["direction"] = Json::array();
+  for (int row = 0; row < 3; ++row)
+  {
+    j["direction"].push_back({ matrix->GetElement(row, 0) / spacing[0],
+      matrix->GetElement(row, 1) / spacing[1], matrix->GetElement(row, 2) / spacing[2] });
+  }
+  j["scalar_type"] = voxels.type() == VoxelType::Float16 ? "half" : "float";
+  j["components"] = 1;
+  j["value_unit"] = input.value_unit;
+  double range[2];
+  volume->GetValueRange(range);
+  j["value_range"] = { finite(range[0]), finite(range[1]) };
+  j["background"] = finite(voxels.background());
+  j["mean"] = finite(summary.mean);
+  j["standard_deviation"] = finite(summary.standard_deviation);
+  j["center_value"] = finite(voxels.value(static_cast<int>(middle[0]),
+    static_cast<int>(middle[1]), static_cast<int>(middle[2])));
+  j["voxels"] = static_cast<std::uint64_t>(voxels.places().size()) * SparseVoxels::brick_voxels;
+  j["active_voxels"] = static_cast<std::uint64_t>(volume->GetActiveVoxelCount());
+  j["bricks"] = static_cast<std::uint64_t>(voxels.places().size());
+  j["tiles"] = static_cast<std::uint64_t>(voxels.tiles().size());
+  j["memory_bytes"] = static_cast<std::uint64_t>(voxels.memory_bytes());
+  add_values(input, summary, j);
+  return j;
 }
 
 /// All that is told, as the JSON file has it; the text is made from the same.
@@ -122,18 +207,9 @@ Json describe(const Input& input, const VolumeSummary& summary)
   }
   j["center_value"] = finite(scalars->GetComponent(image->ComputePointId(middle), 0));
   j["voxels"] = static_cast<std::uint64_t>(image->GetNumberOfPoints());
-  j["non_finite_voxels"] = summary.non_finite;
   j["memory_bytes"] = static_cast<std::uint64_t>(scalars->GetNumberOfValues()) *
     static_cast<std::uint64_t>(scalars->GetDataTypeSize());
-  Json percentiles = Json::object();
-  for (std::size_t i = 0; i < summary.percentiles.size(); ++i)
-  {
-    percentiles["p" + std::to_string(percents()[i])] = finite(summary.percentiles[i]);
-  }
-  j["percentiles"] = percentiles;
-  j["histogram"] = { { "minimum", finite(summary.minimum) },
-    { "bin_width", finite(summary.bin_width) }, { "counts", summary.histogram } };
-  j["messages"] = input.messages;
+  add_values(input, summary, j);
   return j;
 }
 
@@ -167,7 +243,16 @@ void print(std::ostream& out, const Json& j, const VolumeSummary& summary)
   };
   line("name", j["name"].get<std::string>());
   line("format", j["format"].get<std::string>());
-  line("dimensions", triple(j["dimensions"], " x ") + " voxels");
+  const bool sparse = j.contains("active_voxels");
+  if (sparse)
+  {
+    line("grid", j["grid"].get<std::string>());
+    for (std::size_t i = 0; i < j["grids"].size(); ++i)
+    {
+      line(i == 0 ? "grids" : "", j["grids"][i].get<std::string>());
+    }
+  }
+  line("dimensions", triple(j["dimensions"], " x ") + " voxels" + (sparse ? ", sparse" : ""));
   line("spacing", triple(j["spacing"], " x ") + lengths);
   line("physical size", triple(j["physical_size"], " x ") + lengths);
   line("origin", triple(j["origin"], ", ") + lengths);
@@ -194,7 +279,18 @@ void print(std::ostream& out, const Json& j, const VolumeSummary& summary)
   }
   line("center voxel", value_text(j["center_value"], unit));
   line("non-finite voxels", std::to_string(summary.non_finite));
-  line("memory", memory_size(j["memory_bytes"].get<double>()));
+  if (sparse)
+  {
+    line("background", value_text(j["background"], unit));
+    line("active voxels", std::to_string(j["active_voxels"].get<std::uint64_t>()) + " in " +
+        std::to_string(j["bricks"].get<std::uint64_t>()) + " bricks and " +
+        std::to_string(j["tiles"].get<std::uint64_t>()) + " tiles");
+  }
+  line("memory", memory_size(j["memory_bytes"].get<double>()) +
+      (sparse && j["active_voxels"] > 0
+          ? ", " + number(j["memory_bytes"].get<double>() / j["active_voxels"].get<double>()) +
+            " bytes an active voxel"
+          : ""));
   std::string percentiles;
   for (const auto& [key, value] : j["percentiles"].items())
   {
@@ -215,9 +311,11 @@ void run(const Options& options)
 {
   check_output(options.json, options.input);
   // Messages are part of what is told, so they are not written to standard error as well.
-  const Input input = open_input_with_bar(options.input, options.quiet);
-  const VolumeSummary summary = summarize(input.image);
-  const Json description = describe(input, summary);
+  const Input input = open_input_with_bar(options.input, options.grid, options.quiet);
+  const VolumeSummary summary =
+    input.sparse ? summarize(input.sparse.Get()) : summarize(input.image.Get());
+  const Json description =
+    input.sparse ? describe_sparse(input, summary) : describe(input, summary);
   if (!options.json.empty())
   {
     // A name may hold bytes that are no UTF-8: they are replaced, not an error.
@@ -234,7 +332,7 @@ void add_info(CLI::App& program)
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("info",
     "Tell what a volume is: size, spacing, orientation, values and their histogram");
-  add_input(*command, options->input);
+  add_input(*command, options->input, options->grid);
   command->add_option("--json", options->json, "Write the same, as JSON, to FILE")
     ->type_name("FILE");
   command->add_flag("--quiet", options->quiet, "No progress bar");

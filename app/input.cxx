@@ -5,6 +5,8 @@
 #include "progress.h"
 
 #include "vtkBrumeImageReader.h"
+#include "vtkBrumeOpenVDBReader.h"
+#include "vtkBrumeSparseVolume.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
@@ -57,45 +59,99 @@ void hear(vtkObject* caller, unsigned long event, void* client, void*)
 
 }
 
-Input open_input(const std::string& spec, const Progress& progress)
+vtkDataObject* Input::data() const
 {
-  const std::string prefix = "sample:";
-  if (spec.compare(0, prefix.size(), prefix) == 0)
-  {
-    return make_sample(spec.substr(prefix.size()), progress);
-  }
+  return this->sparse ? static_cast<vtkDataObject*>(this->sparse) : this->image;
+}
+
+namespace
+{
+
+/// Updates a reader, and throws what it complains of as "FILE: what is wrong: what to do".
+template <class Reader>
+void read(Reader* reader, const std::string& path, const Progress& progress)
+{
   vtkNew<vtkCallbackCommand> ear;
   ear->SetClientData(const_cast<Progress*>(&progress));
   ear->SetCallback(hear);
-  vtkNew<vtkBrumeImageReader> reader;
   reader->AddObserver(vtkCommand::ErrorEvent, ear);
   reader->AddObserver(vtkCommand::ProgressEvent, ear);
-  reader->SetFileName(spec.c_str());
+  reader->SetFileName(path.c_str());
   reader->Update();
-  InterruptionWatch::check(spec.c_str());
+  InterruptionWatch::check(path.c_str());
   if (*reader->GetErrorMessage())
   {
-    // "FILE: what is wrong: what to do", as Failure has it.
     throw Failure(reader->GetErrorMessage());
   }
+}
+
+template <class Reader>
+std::vector<std::string> messages_of(Reader* reader)
+{
+  std::vector<std::string> messages;
+  for (int i = 0; i < reader->GetNumberOfMessages(); ++i)
+  {
+    messages.push_back(reader->GetMessage(i));
+  }
+  return messages;
+}
+
+Input open_image(const std::string& path, const Progress& progress)
+{
+  vtkNew<vtkBrumeImageReader> reader;
+  read(reader.Get(), path, progress);
   Input input;
   input.image = reader->GetOutput();
-  input.name = std::filesystem::path(spec).filename().string();
   input.format = reader->GetFormat();
   input.length_unit = reader->GetLengthUnit();
   input.value_unit = reader->GetValueUnit();
   input.patient_axes = reader->GetPatientAxes();
-  for (int i = 0; i < reader->GetNumberOfMessages(); ++i)
-  {
-    input.messages.push_back(reader->GetMessage(i));
-  }
+  input.messages = messages_of(reader.Get());
   return input;
 }
 
-Input open_input_with_bar(const std::string& spec, bool quiet)
+Input open_sparse(const std::string& path, const Progress& progress, const std::string& grid)
+{
+  vtkNew<vtkBrumeOpenVDBReader> reader;
+  reader->SetGridName(grid.empty() ? nullptr : grid.c_str());
+  read(reader.Get(), path, progress);
+  Input input;
+  input.sparse = reader->GetOutput();
+  input.format = "OpenVDB";
+  for (int i = 0; i < reader->GetNumberOfGrids(); ++i)
+  {
+    input.grids.push_back(std::string(reader->GetNameOfGrid(i)) + " (" +
+      reader->GetTypeOfGrid(i) + ", " + reader->GetKindOfGrid(i) + ")");
+  }
+  input.messages = messages_of(reader.Get());
+  return input;
+}
+
+}
+
+Input open_input(const std::string& spec, const Progress& progress, const std::string& grid)
+{
+  const std::string prefix = "sample:";
+  const bool sample = spec.compare(0, prefix.size(), prefix) == 0;
+  const bool sparse = !sample && vtkBrumeOpenVDBReader::CanReadFile(spec.c_str());
+  if (!grid.empty() && !sparse)
+  {
+    throw Failure("--grid " + grid, spec + " is not an OpenVDB file, which has grids to choose from",
+      "leave it out", BadCall);
+  }
+  if (sample)
+  {
+    return make_sample(spec.substr(prefix.size()), progress);
+  }
+  Input input = sparse ? open_sparse(spec, progress, grid) : open_image(spec, progress);
+  input.name = std::filesystem::path(spec).filename().string();
+  return input;
+}
+
+Input open_input_with_bar(const std::string& spec, const std::string& grid, bool quiet)
 {
   ProgressBar bar("reading", !quiet);
-  return open_input(spec, [&bar](double done) { bar.update(done); });
+  return open_input(spec, [&bar](double done) { bar.update(done); }, grid);
 }
 
 }

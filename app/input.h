@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+class vtkBrumeSparseVolume;
+class vtkDataObject;
 class vtkImageData;
 
 namespace brume::app
@@ -16,21 +18,27 @@ namespace brume::app
 struct Input
 {
   vtkSmartPointer<vtkImageData> image; ///< with point scalars; at least one voxel
+  vtkSmartPointer<vtkBrumeSparseVolume> sparse; ///< in place of the image, which is null then
+  std::vector<std::string> grids; ///< of a file of several, as people read them; else empty
   std::string name;        ///< for people: the file's name without its folder, or the sample's
   std::string format;      ///< "NIfTI-1 (gzip)", "sample", …
   std::string length_unit; ///< of spacing and origin: "mm", …; empty where unknown
   std::string value_unit;  ///< "HU", …; empty where unknown
   bool patient_axes = false; ///< the world is RAS+: x to the patient's right, y front, z up
   std::vector<std::string> messages; ///< what the reader settled by itself, one line each
+
+  vtkDataObject* data() const; ///< the image or the sparse volume
 };
 
-/// Opens INPUT as the user wrote it: `sample:NAME`, or a file. `progress` is called now and then
-/// with the part that is done, in [0, 1]. Throws Failure: with status BadCall for a sample that
-/// does not exist, Failed for a file that cannot be read.
-Input open_input(const std::string& spec, const std::function<void(double)>& progress = {});
+/// Opens INPUT as the user wrote it: `sample:NAME`, or a file, of which `grid` names a grid (empty:
+/// the first that can be read). `progress` is called now and then with the part that is done, in
+/// [0, 1]. Throws Failure: with status BadCall for a sample that does not exist and for a grid of a
+/// file that has none, Failed for a file that cannot be read.
+Input open_input(const std::string& spec, const std::function<void(double)>& progress = {},
+  const std::string& grid = {});
 
 /// The same with a bar on the terminal for what takes over a second, unless `quiet`.
-Input open_input_with_bar(const std::string& spec, bool quiet);
+Input open_input_with_bar(const std::string& spec, const std::string& grid, bool quiet);
 
 /// A sample: what `sample:NAME` makes.
 struct Sample

@@ -2,6 +2,10 @@
 
 #include "command.h"
 
+#include "Transport/sparse_voxels.h"
+
+#include "vtkBrumeSparseVolume.h"
+
 #include <vtkColorTransferFunction.h>
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
@@ -20,28 +24,52 @@ namespace brume::app
 namespace
 {
 
-constexpr vtkIdType most_samples = 1 << 20;
+constexpr std::size_t most_samples = 1 << 20;
 
-/// The finite values of component 0, every one or an evenly strided sample, in rising order.
-std::vector<double> sorted_sample(vtkImageData* volume)
+/// Calls visit(i) for each of `count` values, or for an evenly strided sample of them.
+template <class Visit>
+void visit_sample(std::size_t count, const Visit& visit)
 {
-  vtkDataArray* scalars = volume ? volume->GetPointData()->GetScalars() : nullptr;
-  if (!scalars || scalars->GetNumberOfTuples() == 0)
-  {
-    throw Failure("volume", "it holds no scalar values", "give a volume with a scalar array");
-  }
-  const vtkIdType count = scalars->GetNumberOfTuples();
   // An odd stride meets every column of the usual even-sized grids in turn.
-  const vtkIdType stride = count > most_samples ? (count / most_samples) | 1 : 1;
-  std::vector<double> sample;
-  sample.reserve(static_cast<std::size_t>(count / stride) + 1);
-  for (vtkIdType i = 0; i < count; i += stride)
+  const std::size_t stride = count > most_samples ? (count / most_samples) | 1 : 1;
+  for (std::size_t i = 0; i < count; i += stride)
   {
-    const double value = scalars->GetComponent(i, 0);
+    visit(i);
+  }
+}
+
+/// The finite values of component 0, every one or an evenly strided sample, in rising order. Of a
+/// sparse volume those that are stored.
+std::vector<double> sorted_sample(vtkDataObject* volume)
+{
+  std::vector<double> sample;
+  const auto add = [&sample](double value)
+  {
     if (std::isfinite(value))
     {
       sample.push_back(value);
     }
+  };
+  if (auto* sparse = vtkBrumeSparseVolume::SafeDownCast(volume))
+  {
+    const SparseVoxels& voxels = *sparse->GetVoxels();
+    visit_sample((voxels.slot_count() - 1) * SparseVoxels::brick_voxels,
+      [&](std::size_t i)
+      {
+        add(voxels.value_in_slot(1 + i / SparseVoxels::brick_voxels,
+          static_cast<int>(i % SparseVoxels::brick_voxels)));
+      });
+  }
+  else
+  {
+    auto* image = vtkImageData::SafeDownCast(volume);
+    vtkDataArray* scalars = image ? image->GetPointData()->GetScalars() : nullptr;
+    if (!scalars || scalars->GetNumberOfTuples() == 0)
+    {
+      throw Failure("volume", "it holds no scalar values", "give a volume with a scalar array");
+    }
+    visit_sample(static_cast<std::size_t>(scalars->GetNumberOfTuples()),
+      [&](std::size_t i) { add(scalars->GetComponent(static_cast<vtkIdType>(i), 0)); });
   }
   if (sample.empty())
   {
@@ -92,13 +120,32 @@ std::string percent(double fraction)
   return text;
 }
 
-/// The lengths of the volume's edges in world units.
-std::array<double, 3> edges(vtkImageData* volume)
+/// The lengths of the volume's edges in world units; of a sparse volume those of a cube as large as
+/// all that is stored.
+std::array<double, 3> edges(vtkDataObject* volume)
 {
-  int size[3];
-  volume->GetDimensions(size);
-  const double* spacing = volume->GetSpacing();
   std::array<double, 3> lengths;
+  if (auto* sparse = vtkBrumeSparseVolume::SafeDownCast(volume))
+  {
+    const SparseVoxels& voxels = *sparse->GetVoxels();
+    double bricks = static_cast<double>(voxels.places().size());
+    for (const BrickBox& box : voxels.tiles())
+    {
+      bricks += static_cast<double>(box.size());
+    }
+    const double edge = SparseVoxels::brick_edge * std::cbrt(bricks);
+    double spacing[3];
+    sparse->GetSpacing(spacing);
+    for (int i = 0; i < 3; ++i)
+    {
+      lengths[i] = edge * spacing[i];
+    }
+    return lengths;
+  }
+  auto* image = vtkImageData::SafeDownCast(volume);
+  int size[3];
+  image->GetDimensions(size);
+  const double* spacing = image->GetSpacing();
   for (int i = 0; i < 3; ++i)
   {
     lengths[i] = std::max(size[i] - 1, 1) * std::abs(spacing[i]);
@@ -141,12 +188,12 @@ const Preset& find_preset(const std::string& name)
   throw Failure("--preset " + name, "no such preset", "choose one of " + names, BadCall);
 }
 
-std::array<double, 2> robust_range(vtkImageData* volume)
+std::array<double, 2> robust_range(vtkDataObject* volume)
 {
   return robust_range(sorted_sample(volume));
 }
 
-std::array<double, 2> value_range(const Preset& preset, vtkImageData* volume)
+std::array<double, 2> value_range(const Preset& preset, vtkDataObject* volume)
 {
   if (preset.value_unit == ValueUnit::Hounsfield)
   {
@@ -160,7 +207,7 @@ std::array<double, 2> value_range(const Preset& preset, vtkImageData* volume)
   return range;
 }
 
-double opacity_unit_distance(const Preset& preset, vtkImageData* volume)
+double opacity_unit_distance(const Preset& preset, vtkDataObject* volume)
 {
   if (preset.length_unit == LengthUnit::Millimetre)
   {
@@ -170,7 +217,7 @@ double opacity_unit_distance(const Preset& preset, vtkImageData* volume)
   return preset.opacity_unit_distance * *std::max_element(lengths.begin(), lengths.end());
 }
 
-void apply(const Preset& preset, vtkImageData* volume, vtkVolumeProperty* property)
+void apply(const Preset& preset, vtkDataObject* volume, vtkVolumeProperty* property)
 {
   const auto range = value_range(preset, volume);
   const double scale = range[1] - range[0];
@@ -212,7 +259,7 @@ void apply(const Preset& preset, vtkImageData* volume, vtkVolumeProperty* proper
   }
 }
 
-PresetChoice choose_preset(vtkImageData* volume, const VolumeHints& hints)
+PresetChoice choose_preset(vtkDataObject* volume, const VolumeHints& hints)
 {
   const std::vector<double> sample = sorted_sample(volume);
   const double low = sample.front();
@@ -221,6 +268,11 @@ PresetChoice choose_preset(vtkImageData* volume, const VolumeHints& hints)
     sample.begin(), sample.end(), [](double value) { return value == std::floor(value); });
   const std::string span = number(low) + " to " + number(high);
 
+  if (vtkBrumeSparseVolume::SafeDownCast(volume) && low >= 0.0)
+  {
+    return { &find_preset("cloud"),
+      "the values of a sparse volume, " + span + ", are taken for a density" };
+  }
   if (hints.modality == "CT")
   {
     return choose_ct(sample, "the scan's header says CT");
@@ -232,7 +284,8 @@ PresetChoice choose_preset(vtkImageData* volume, const VolumeHints& hints)
   }
 
   std::string name = hints.array_name;
-  const char* own_name = volume->GetPointData()->GetScalars()->GetName();
+  auto* image = vtkImageData::SafeDownCast(volume);
+  const char* own_name = image ? image->GetPointData()->GetScalars()->GetName() : nullptr;
   if (name.empty() && own_name)
   {
     name = own_name;

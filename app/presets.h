@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-class vtkImageData;
+class vtkDataObject;
 class vtkVolumeProperty;
 
 namespace brume::app
@@ -24,7 +24,9 @@ enum class ValueUnit
 enum class LengthUnit
 {
   Millimetre,   ///< world units, which scans give in millimetres
-  EdgeFraction, ///< a fraction of the volume's longest edge, for data of any scale
+  /// A fraction of the volume's longest edge, for data of any scale; of a sparse volume that of a cube
+  /// as large as all that is stored, however far apart it lies.
+  EdgeFraction,
 };
 
 /// A colour at a value, linear in between and constant outside. Red, green and blue in [0, 1].
@@ -73,24 +75,25 @@ const Preset& find_preset(const std::string& name);
 
 /// The range that most of the volume's values lie in, blind to single outliers: the 0.1th and the
 /// 99.9th percentile of the finite values of the first component. Volumes of more than a million
-/// values are sampled at a fixed, even stride. Where the two percentiles coincide (a small object in
+/// values are sampled at a fixed, even stride, and of a sparse volume what is stored. Where the two percentiles coincide (a small object in
 /// much background) the range is the smallest to the largest sampled value, where these coincide
 /// too, (value, value + 1). Throws Failure for a volume without scalars or without a finite value.
-std::array<double, 2> robust_range(vtkImageData* volume);
+std::array<double, 2> robust_range(vtkDataObject* volume);
 
 /// The data values that a preset's points 0 and 1 stand for in this volume: (0, 1) for Hounsfield
 /// units. A point p lies at range[0] + p (range[1] - range[0]).
-std::array<double, 2> value_range(const Preset& preset, vtkImageData* volume);
+std::array<double, 2> value_range(const Preset& preset, vtkDataObject* volume);
 
 /// The preset's opacity unit distance for this volume, in world units.
-double opacity_unit_distance(const Preset& preset, vtkImageData* volume);
+double opacity_unit_distance(const Preset& preset, vtkDataObject* volume);
 
 /// Fills the property (colour, opacity, gradient opacity, unit distance, shading, linear
 /// interpolation; component 0) for this volume. What the property held of these is replaced.
 /// Throws Failure as robust_range() does.
-void apply(const Preset& preset, vtkImageData* volume, vtkVolumeProperty* property);
+void apply(const Preset& preset, vtkDataObject* volume, vtkVolumeProperty* property);
 
-/// What is known of a volume beyond its values; empty where it is not known.
+/// A volume is a vtkImageData with point scalars or a vtkBrumeSparseVolume, here and above.
+/// What is known of one beyond its values; empty where it is not known.
 struct VolumeHints
 {
   std::string modality;   ///< as DICOM writes it: "CT", "MR"
@@ -105,6 +108,7 @@ struct PresetChoice
 };
 
 /// The preset for a volume when the user names none. In this order:
+/// - a sparse volume without negative values: cloud;
 /// - the modality CT, or whole numbers from -900 or less with a peak at air (at least 2 % of the
 ///   values in [-1100, -900]): ct-lung where lung tissue, [-950, -500], is more than a tenth of the
 ///   volume, else ct-bone where values over 250 are at least 0.5 % of what is not air, else
@@ -114,6 +118,6 @@ struct PresetChoice
 ///   330 mm, as a head's scan has it, else mr-default;
 /// - anything else: grey.
 /// The same volume always gets the same preset. Throws Failure as robust_range() does.
-PresetChoice choose_preset(vtkImageData* volume, const VolumeHints& hints = {});
+PresetChoice choose_preset(vtkDataObject* volume, const VolumeHints& hints = {});
 
 }

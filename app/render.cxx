@@ -16,6 +16,7 @@
 #include "Transport/film.h"
 
 #include "vtkBrumeRayMarchMapper.h"
+#include "vtkBrumeSparseVolume.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
@@ -56,7 +57,8 @@ struct Drawn
 Drawn draw_ray_march(const VolumeScene& scene)
 {
   vtkNew<vtkBrumeRayMarchMapper> mapper;
-  mapper->SetInputData(scene.input.image);
+  mapper->SetInputDataObject(scene.input.data());
+  mapper->SetExtinction(scene.options.extinction);
   mapper->SetTolerance(scene.options.tolerance);
   mapper->SetNumberOfThreads(scene.options.threads);
   apply(scene.options.modes, mapper, scene.volume->GetProperty());
@@ -117,6 +119,11 @@ nlohmann::json effect(const char* name, bool on, const char* reason)
 
 Drawn draw_stock(const VolumeScene& scene, const MapperName& mapper)
 {
+  if (scene.input.sparse)
+  {
+    throw Failure("--mapper " + std::string(mapper.name),
+      "VTK's own mappers would need " + scene.options.input + " dense", "take --mapper raymarch");
+  }
   const PrivateDisplay display;
   if (!display.available())
   {
@@ -178,6 +185,11 @@ void run(const Options& options)
   if (!cannot.empty())
   {
     throw Failure("--mapper " + options.mapper, cannot, "take --mapper raymarch", BadCall);
+  }
+  if (options.scene.extinction > 0.0 && mapper.kind != MapperKind::RayMarch)
+  {
+    throw Failure("--extinction", "VTK's own mappers do not draw densities",
+      "take --mapper raymarch, or a --preset", BadCall);
   }
   if (!options.scene.preset.empty())
   {

@@ -40,7 +40,7 @@ std::string preset_names()
 
 }
 
-void add_input(CLI::App& command, std::string& input)
+void add_input(CLI::App& command, std::string& input, std::string& grid)
 {
   std::string names;
   for (const Sample& sample : samples())
@@ -49,15 +49,18 @@ void add_input(CLI::App& command, std::string& input)
   }
   command
     .add_option("INPUT", input,
-      "A file (.nii, .nii.gz, .mha, .mhd, .nrrd, .nhdr, .vti, .vtk), or a volume made on the spot (" +
+      "A file (.nii, .nii.gz, .mha, .mhd, .nrrd, .nhdr, .vti, .vtk, .vdb), or a volume made on the spot (" +
         names + ")")
     ->required();
+  command
+    .add_option("--grid", grid, "Which grid of an OpenVDB file [the first that can be read]")
+    ->type_name("NAME");
 }
 
 void add_scene_options(CLI::App& command, SceneOptions& o, const std::string& shade)
 {
   o.shade = shade;
-  add_input(command, o.input);
+  add_input(command, o.input, o.grid);
 
   const char* camera = "Camera";
   const char* look = "Look";
@@ -102,15 +105,25 @@ void add_scene_options(CLI::App& command, SceneOptions& o, const std::string& sh
     ->check(positive())
     ->group(camera);
 
-  command.add_option("--background", o.background, "Colour behind the volume, linear, 1 is white [0,0,0]")
+  command
+    .add_option("--background", o.background_choice,
+      "Colour behind the volume, linear, 1 is white [0,0,0; with --extinction 1,1,1]")
     ->delimiter(',')
     ->type_name("R,G,B")
     ->check(number("a number of 0 or more", [](double v) { return v >= 0.0; }))
     ->group(look);
-  command
+  CLI::Option* preset = command
     .add_option("--preset", o.preset,
       "Transfer functions: " + preset_names() + " [picked from the data]")
     ->type_name("NAME")
+    ->group(look);
+  command
+    .add_option("--extinction", o.extinction,
+      "The values are a density that absorbs: extinction per world unit and unit of density [they "
+      "are classified by the preset]")
+    ->type_name("S")
+    ->check(positive())
+    ->excludes(preset)
     ->group(look);
   command
     .add_option("--opacity-unit-distance", o.opacity_unit_distance,

@@ -20,13 +20,18 @@ namespace brume::app
 struct SceneOptions
 {
   std::string input;
+  std::string grid; ///< of an OpenVDB file; empty: the first that can be read
   std::array<int, 2> resolution{ 512, 512 }; ///< pixels
   std::optional<std::array<double, 3>> camera_position;    ///< world units
   std::optional<std::array<double, 3>> camera_focal_point; ///< world units
   std::optional<std::array<double, 3>> camera_view_up;
   double camera_view_angle = 30.0;             ///< degrees
   std::optional<double> camera_parallel_scale; ///< world units; parallel projection when given
-  std::array<double, 3> background{ 0.0, 0.0, 0.0 }; ///< linear RGB
+  std::optional<std::array<double, 3>> background_choice; ///< linear RGB
+  /// The choice; without one black, or white for a density, which darkens what is behind it. Settled
+  /// by make_volume_scene().
+  std::array<double, 3> background{ 0.0, 0.0, 0.0 };
+  double extinction = 0.0; ///< per world unit and unit of density; 0: the values are classified
   std::string preset;                          ///< empty: picked from the data
   std::optional<double> opacity_unit_distance; ///< world units
   std::optional<double> sample_distance;       ///< world units
@@ -39,8 +44,9 @@ struct SceneOptions
   bool verbose = false;
 };
 
-/// Declares INPUT on a subcommand; it is read into `input`, which must outlive the parse.
-void add_input(CLI::App& command, std::string& input);
+/// Declares INPUT and --grid on a subcommand; they are read into `input` and `grid`, which must
+/// outlive the parse.
+void add_input(CLI::App& command, std::string& input, std::string& grid);
 
 /// Declares INPUT and the scene options on a subcommand; they are read into `options`, which must
 /// outlive the parse. `shade` is the subcommand's default for --shade.

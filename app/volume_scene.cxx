@@ -9,6 +9,7 @@
 #include "Transport/scene.h"
 
 #include "vtkBrumeRayMarchMapper.h"
+#include "vtkBrumeSparseVolume.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
@@ -44,7 +45,8 @@ constexpr double fill = 0.96;
 std::vector<glm::dvec3> visible_corners(VolumeScene& scene)
 {
   vtkNew<vtkBrumeRayMarchMapper> mapper;
-  mapper->SetInputData(scene.input.image);
+  mapper->SetInputDataObject(scene.input.data());
+  mapper->SetExtinction(scene.options.extinction);
   apply(scene.options.modes, mapper, scene.volume->GetProperty());
   scene.volume->SetMapper(mapper);
   std::string error;
@@ -67,9 +69,15 @@ std::vector<glm::dvec3> visible_corners(VolumeScene& scene)
   }
   scene.cropping = plain->volumes[0].cropping;
   const BrickRanges& ranges = *plain->volumes[0].ranges;
-  const LookupTable table = make_lookup_table(plain->volumes[0].classification);
+  LookupTable table;
+  const bool density = plain->volumes[0].meaning == ValueMeaning::Density;
+  if (!density)
+  {
+    table = make_lookup_table(plain->volumes[0].classification);
+  }
   const VisibleBricks bricks = find_visible_bricks(
-    ranges, [&](float lower, float upper) { return table.can_show(lower, upper); },
+    ranges,
+    [&](float lower, float upper) { return density ? upper > 0.0f : table.can_show(lower, upper); },
     table.empty_value);
   std::vector<glm::dvec3> corners;
   const auto add_box = [&](const glm::dvec3& lower, const glm::dvec3& upper)
@@ -198,7 +206,7 @@ void check_sample_distance(const VolumeScene& scene)
 {
   constexpr double most_steps = 1 << 20;
   double bounds[6];
-  scene.input.image->GetBounds(bounds);
+  scene.input.sparse ? scene.input.sparse->GetBounds(bounds) : scene.input.image->GetBounds(bounds);
   const double diagonal = glm::length(
     glm::dvec3(bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4]));
   const double least = diagonal / most_steps;
@@ -211,10 +219,10 @@ void check_sample_distance(const VolumeScene& scene)
   }
 }
 
-double smallest_edge(vtkImageData* image)
+double smallest_edge(const Input& input)
 {
   double spacing[3];
-  image->GetSpacing(spacing);
+  input.sparse ? input.sparse->GetSpacing(spacing) : input.image->GetSpacing(spacing);
   return std::min({ std::abs(spacing[0]), std::abs(spacing[1]), std::abs(spacing[2]) });
 }
 
@@ -229,11 +237,14 @@ VolumeScene make_volume_scene(const SceneOptions& options)
     scene.preset = &find_preset(options.preset); // before the work of reading
   }
   check(options.modes);
-  scene.input = open_input_with_bar(options.input, options.quiet);
-  vtkImageData* image = scene.input.image;
-  if (!scene.preset)
+  const bool density = options.extinction > 0.0;
+  const double behind = density ? 1.0 : 0.0;
+  scene.options.background = options.background_choice.value_or(
+    std::array<double, 3>{ behind, behind, behind });
+  scene.input = open_input_with_bar(options.input, options.grid, options.quiet);
+  if (!scene.preset && !density)
   {
-    const PresetChoice choice = choose_preset(image);
+    const PresetChoice choice = choose_preset(scene.input.data());
     scene.preset = choice.preset;
     scene.preset_reason = choice.reason;
   }
@@ -251,10 +262,13 @@ VolumeScene make_volume_scene(const SceneOptions& options)
   }
 
   check_sample_distance(scene);
-  scene.mask = open_mask(options.modes, image, options.input, options.quiet);
+  scene.mask = open_mask(options.modes, scene.input.image, options.input, options.quiet);
   InterruptionWatch::check(options.input.c_str());
   vtkNew<vtkVolumeProperty> property;
-  apply(*scene.preset, image, property);
+  if (scene.preset)
+  {
+    apply(*scene.preset, scene.input.data(), property);
+  }
   for (int c = 0; c < VTK_MAX_VRCOMP; ++c)
   {
     if (options.opacity_unit_distance)
@@ -269,7 +283,7 @@ VolumeScene make_volume_scene(const SceneOptions& options)
   property->SetInterpolationType(
     options.interpolation == "nearest" ? VTK_NEAREST_INTERPOLATION : VTK_LINEAR_INTERPOLATION);
   scene.opacity_unit_distance = property->GetScalarOpacityUnitDistance();
-  scene.voxel_edge = smallest_edge(image);
+  scene.voxel_edge = smallest_edge(scene.input);
   scene.volume = vtkSmartPointer<vtkVolume>::New();
   scene.volume->SetProperty(property);
 

@@ -22,7 +22,7 @@ struct VolumeScene
 {
   SceneOptions options;
   Input input;
-  const Preset* preset = nullptr;
+  const Preset* preset = nullptr; ///< null for a density (--extinction)
   std::string preset_reason; ///< why this preset; empty when the user named it
   vtkSmartPointer<vtkVolume> volume; ///< with its property, without a mapper
   vtkSmartPointer<vtkImageData> mask; ///< 0 or 1 for each voxel; null for none

@@ -1,5 +1,9 @@
 #include "volume_summary.h"
 
+#include "Transport/sparse_voxels.h"
+
+#include "vtkBrumeSparseVolume.h"
+
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
 #include "vtkPointData.h"
@@ -111,6 +115,27 @@ VolumeSummary summarize(vtkImageData* image, int component, int bins)
       summarize_values(static_cast<const VTK_TT*>(scalars->GetVoidPointer(0)) + component,
         scalars->GetNumberOfTuples(), step, bins, summary));
   }
+  return summary;
+}
+
+VolumeSummary summarize(vtkBrumeSparseVolume* volume, int bins)
+{
+  const SparseVoxels& voxels = *volume->GetVoxels();
+  const std::size_t count = (voxels.slot_count() - 1) * SparseVoxels::brick_voxels;
+  VolumeSummary summary;
+  if (voxels.type() == VoxelType::Float32)
+  {
+    const auto* values = static_cast<const float*>(voxels.pool()) + SparseVoxels::brick_voxels;
+    summarize_values(values, static_cast<vtkIdType>(count), 1, bins, summary);
+    return summary;
+  }
+  std::vector<float> values(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    values[i] = static_cast<float>(voxels.value_in_slot(1 + i / SparseVoxels::brick_voxels,
+      static_cast<int>(i % SparseVoxels::brick_voxels)));
+  }
+  summarize_values(values.data(), static_cast<vtkIdType>(count), 1, bins, summary);
   return summary;
 }
 

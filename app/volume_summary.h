@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+class vtkBrumeSparseVolume;
 class vtkImageData;
 
 namespace brume::app
@@ -32,6 +33,8 @@ const std::vector<int>& percents();
 
 /// `bins` is the most the histogram may have.
 VolumeSummary summarize(vtkImageData* image, int component = 0, int bins = 24);
+/// Of all voxels in bricks; each distinct value of a tile counts as one brick.
+VolumeSummary summarize(vtkBrumeSparseVolume* volume, int bins = 24);
 
 /// The histogram as lines of text, at most `width` columns wide, longest bar the fullest bin; bars
 /// are as long as the logarithm of 1 + the count.

@@ -2,9 +2,13 @@
 
 #include "vtk_to_glm.h"
 
+#include "Transport/sparse_voxels.h"
+
+#include "vtkBrumeSparseVolume.h"
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
 #include "vtkMatrix3x3.h"
+#include "vtkMatrix4x4.h"
 #include "vtkVolumeMapper.h"
 #include "vtkVolumeProperty.h"
 
@@ -52,11 +56,63 @@ VoxelType voxel_type(int vtkType, bool& converts)
 
 std::string GridFromVTK::Update(vtkVolumeMapper* mapper, vtkVolumeProperty* property, int threads)
 {
-  auto* image = vtkImageData::SafeDownCast(mapper->GetDataSetInput());
-  if (!image)
+  this->TheGrid.linear = property->GetInterpolationType() != VTK_NEAREST_INTERPOLATION;
+  vtkDataObject* input = mapper->GetDataObjectInput();
+  if (auto* sparse = vtkBrumeSparseVolume::SafeDownCast(input))
   {
-    return "there is no image data to draw: connect a vtkImageData to the mapper";
+    return this->UpdateSparse(sparse, threads);
   }
+  if (auto* image = vtkImageData::SafeDownCast(input))
+  {
+    return this->UpdateImage(image, mapper, property, threads);
+  }
+  return "there is no image data to draw: connect a vtkImageData or a vtkBrumeSparseVolume to the "
+         "mapper";
+}
+
+std::string GridFromVTK::UpdateSparse(vtkBrumeSparseVolume* volume, int threads)
+{
+  if (!volume->GetVoxels())
+  {
+    return "the sparse volume has no voxels: see whether its reader failed";
+  }
+  // Place: cheap, so always made anew.
+  const SparseVoxels& voxels = *volume->GetVoxels();
+  glm::dmat4 shift(1.0);
+  volume->GetSpacing(this->Spacing);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    this->First[axis] = voxels.origin()[axis];
+    this->Origin[axis] = volume->GetIndexToWorld()->GetElement(axis, 3);
+    shift[3][axis] = this->First[axis];
+    for (int row = 0; row < 3; ++row)
+    {
+      this->Direction[3 * row + axis] =
+        volume->GetIndexToWorld()->GetElement(row, axis) / this->Spacing[axis];
+    }
+  }
+  this->DataFromIndex = to_glm(volume->GetIndexToWorld()) * shift;
+  const DataKey key{ volume, static_cast<unsigned long>(volume->GetMTime()), 0, 0, 0, 0, 0, 0 };
+  if (key == this->LastData && this->Sparse == volume->GetVoxels())
+  {
+    return {};
+  }
+  this->LastData = DataKey{}; // until all is done: memory may run out on the way
+  this->TheMeaning = Meaning::Independent;
+  this->Converted.clear();
+  this->Sparse = volume->GetVoxels();
+  const bool linear = this->TheGrid.linear;
+  this->TheGrid = voxels.grid();
+  this->TheGrid.linear = linear;
+  this->MeasureRanges(threads);
+  this->LastData = key;
+  this->Revision = next_revision();
+  return {};
+}
+
+std::string GridFromVTK::UpdateImage(
+  vtkImageData* image, vtkVolumeMapper* mapper, vtkVolumeProperty* property, int threads)
+{
   int cellFlag = 0;
   vtkDataArray* scalars = vtkAbstractMapper::GetScalars(image,
     mapper->GetScalarMode(),
@@ -111,7 +167,6 @@ std::string GridFromVTK::Update(vtkVolumeMapper* mapper, vtkVolumeProperty* prop
     return wrong;
   }
 
-  this->TheGrid.linear = property->GetInterpolationType() != VTK_NEAREST_INTERPOLATION;
   const DataKey key{ scalars,
     static_cast<unsigned long>(scalars->GetMTime()),
     static_cast<unsigned long>(image->GetMTime()),
@@ -126,6 +181,10 @@ std::string GridFromVTK::Update(vtkVolumeMapper* mapper, vtkVolumeProperty* prop
   }
   this->LastData = DataKey{}; // until all is done: memory may run out on the way
   this->TheMeaning = meaning;
+  this->Sparse.reset();
+  const bool linear = this->TheGrid.linear;
+  this->TheGrid = Grid();
+  this->TheGrid.linear = linear;
   this->ReadVoxels(scalars, dims, cells);
   this->MeasureRanges(threads);
   this->LastData = key;

@@ -1,4 +1,4 @@
-// A mapper's image as grids: its voxels, where they are, what they range over. Internal to Mappers.
+// A mapper's input as grids: its voxels, where they are, what they range over. Internal to Mappers.
 #ifndef grid_from_vtk_h
 #define grid_from_vtk_h
 
@@ -13,8 +13,10 @@
 #include <tuple>
 #include <vector>
 
+class vtkBrumeSparseVolume;
 class vtkDataArray;
 class vtkImageData;
+class vtkObject;
 class vtkVolumeMapper;
 class vtkVolumeProperty;
 
@@ -24,8 +26,10 @@ namespace brume
 /// A number that no scene of this process has had as a revision.
 std::uint64_t next_revision();
 
-/// Reads the image of a mapper, in place where the kernels know its voxels. Keeps copies and ranges
-/// while the image and its array say that they were not modified.
+class SparseVoxels;
+
+/// Reads the image of a mapper, in place where the kernels know its voxels, or its sparse volume.
+/// Keeps copies and ranges while the image and its array say that they were not modified.
 class GridFromVTK
 {
 public:
@@ -62,10 +66,14 @@ public:
   /// Structured coordinates of the first voxel's place: the extent's lower end, half a voxel more
   /// for cells.
   double First[3] = { 0.0, 0.0, 0.0 };
-  /// Direction of the image's axes in the data's coordinates, row by row.
+  /// Direction of the image's axes in the data's coordinates, row by row. Those of a sparse volume
+  /// need not be perpendicular.
   double Direction[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
 
 private:
+  std::string UpdateImage(vtkImageData* image, vtkVolumeMapper* mapper,
+    vtkVolumeProperty* property, int threads);
+  std::string UpdateSparse(vtkBrumeSparseVolume* volume, int threads);
   std::string UpdatePlace(vtkImageData* image, const int extent[6], bool cells);
   void ReadVoxels(vtkDataArray* scalars, const int dims[3], bool cells);
   void MeasureRanges(int threads);
@@ -74,11 +82,12 @@ private:
   Meaning TheMeaning = Meaning::Independent;
   /// Voxels that could not be read in place: converted or padded.
   std::vector<unsigned char> Converted;
+  std::shared_ptr<const SparseVoxels> Sparse;
   std::shared_ptr<const BrickRanges> Ranges[4];
   double Range[4][2] = {};
   std::uint64_t Revision = 0;
 
-  using DataKey = std::tuple<vtkDataArray*, unsigned long, unsigned long, int, int, int, int, int>;
+  using DataKey = std::tuple<vtkObject*, unsigned long, unsigned long, int, int, int, int, int>;
   DataKey LastData{ nullptr, 0, 0, 0, 0, 0, 0, 0 };
 };
 

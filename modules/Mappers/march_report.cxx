@@ -87,6 +87,8 @@ nlohmann::json effects_of(const Scene& scene,
 {
   const bool composite = scene.blend_mode == BlendMode::Composite;
   const bool seen = march.visible_bricks > 0;
+  const bool density =
+    any(scene, [](const Volume& v) { return v.meaning == ValueMeaning::Density; });
   const bool shading = shades(scene);
   const bool gradient = has_gradient_opacity(scene);
   const bool masked = any(scene, [](const Volume& v) { return v.mask.labels != nullptr; });
@@ -97,16 +99,20 @@ nlohmann::json effects_of(const Scene& scene,
   effects.push_back(effect("absorption",
     composite && seen,
     !composite ? "the blend mode is " + mode
-    : seen     ? "the opacity function is above 0 for values of the data"
-               : "the opacity function is 0 for every value of the data"));
+      : density ? (seen ? "the input is a density that is above 0 for values of the data"
+                        : "the input is a density that is 0 everywhere")
+      : seen    ? "the opacity function is above 0 for values of the data"
+                : "the opacity function is 0 for every value of the data"));
   effects.push_back(effect("emission",
-    composite && seen,
-    composite ? "the transfer functions' colour is the source, as in VTK's composite mode"
-              : "the blend mode is " + mode));
+    composite && seen && !density,
+    !composite  ? "the blend mode is " + mode
+      : density ? "a density absorbs and does not emit"
+                : "the transfer functions' colour is the source, as in VTK's composite mode"));
   effects.push_back(effect("scattering",
     false,
-    "a vtkVolumeProperty without a medium has none: VTK's composite mode is emission and "
-    "absorption"));
+    density ? "a density without a medium has none"
+            : "a vtkVolumeProperty without a medium has none: VTK's composite mode is emission and "
+              "absorption"));
   effects.push_back(effect("projection",
     !composite,
     composite ? "the blend mode is composite"

@@ -52,6 +52,7 @@ BlendMode blend_mode_from_vtk(int mode)
 std::string SceneFromVTK::Update(vtkVolumeMapper* mapper,
   vtkVolume* volume,
   const MaskSettings& mask,
+  double extinction,
   const ViewFromVTK& view)
 {
   // Volumes are kept by component; surfaces want the heaviest first.
@@ -59,13 +60,17 @@ std::string SceneFromVTK::Update(vtkVolumeMapper* mapper,
     [](const Volume& a, const Volume& b) { return a.grid.component < b.grid.component; });
   vtkVolumeProperty* property = volume->GetProperty(); // made if there is none
   std::string wrong = this->Source.Update(mapper, property, view.threads);
+  if (wrong.empty() && mask.image && this->Source.GetGrid(0).sparse)
+  {
+    wrong = "a sparse volume cannot have a mask: call SetMaskInput(nullptr)";
+  }
   if (wrong.empty())
   {
     wrong = this->Labels.Update(mask.image, this->Source.GetGrid(0));
   }
   if (wrong.empty())
   {
-    wrong = this->UpdateMedia(property, mask);
+    wrong = this->UpdateMedia(property, mask, extinction);
   }
   if (!wrong.empty())
   {
@@ -90,6 +95,7 @@ std::string SceneFromVTK::Update(vtkVolumeMapper* mapper,
     v.world_from_data = world_from_data;
     v.grid.linear = this->Source.GetGrid(i).linear;
     v.shading = shading_from_vtk(property, i, ambient, view.two_sided_lighting);
+    v.shading.enabled = v.shading.enabled && v.meaning == ValueMeaning::Classified;
     v.cropping = cropping;
     v.clipping_planes = planes;
   }
@@ -122,7 +128,8 @@ std::string SceneFromVTK::Update(vtkVolumeMapper* mapper,
   return {};
 }
 
-std::string SceneFromVTK::UpdateMedia(vtkVolumeProperty* property, const MaskSettings& mask)
+std::string SceneFromVTK::UpdateMedia(
+  vtkVolumeProperty* property, const MaskSettings& mask, double extinction)
 {
   const int count = this->Source.GetNumberOfVolumes();
   // Asked first: where there is no function yet the property makes one, which modifies it.
@@ -154,7 +161,8 @@ std::string SceneFromVTK::UpdateMedia(vtkVolumeProperty* property, const MaskSet
     mask.image ? label_functions_time(property) : 0ul,
     this->Source.GetRevision(),
     mask.label_map,
-    mask.image ? mask.blend_factor : 1.0 };
+    mask.image ? mask.blend_factor : 1.0,
+    extinction };
   if (!voxels && key == this->LastMedium)
   {
     return {};
@@ -163,13 +171,16 @@ std::string SceneFromVTK::UpdateMedia(vtkVolumeProperty* property, const MaskSet
   const bool labels = this->DrawsLabels(property, mask);
   for (int i = 0; i < count; ++i)
   {
-    std::string wrong =
-      classification_from_vtk(property, this->Source, i, labels, volumes[i].classification);
+    volumes[i].meaning = extinction > 0.0 ? ValueMeaning::Density : ValueMeaning::Classified;
+    volumes[i].density.extinction = extinction;
+    volumes[i].classification = Classification();
+    std::string wrong = extinction > 0.0
+      ? std::string()
+      : classification_from_vtk(property, this->Source, i, labels, volumes[i].classification);
     if (!wrong.empty())
     {
       return wrong;
     }
-    volumes[i].meaning = ValueMeaning::Classified;
     // As in VTK, what there is one of has no weight.
     volumes[i].weight = count > 1 ? property->GetComponentWeight(i) : 1.0;
     volumes[i].medium_revision = next_revision();

@@ -45,16 +45,19 @@ struct MaskSettings
 class SceneFromVTK
 {
 public:
-  /// Brings the scene up to date. Returns an empty string, or what is wrong and what to do.
+  /// Brings the scene up to date. `extinction` > 0: values are a density, see Density; 0: they are
+  /// classified. Returns an empty string, or what is wrong and what to do.
   std::string Update(vtkVolumeMapper* mapper,
     vtkVolume* volume,
     const MaskSettings& mask,
+    double extinction,
     const ViewFromVTK& view);
 
   Scene& GetScene() { return this->TheScene; }
 
 private:
-  std::string UpdateMedia(vtkVolumeProperty* property, const MaskSettings& mask);
+  std::string UpdateMedia(
+    vtkVolumeProperty* property, const MaskSettings& mask, double extinction);
   bool DrawsLabels(vtkVolumeProperty* property, const MaskSettings& mask) const;
   void UpdateLabels(vtkVolumeProperty* property, const MaskSettings& mask);
 
@@ -62,9 +65,9 @@ private:
   GridFromVTK Source;
   MaskFromVTK Labels;
 
-  using MediumKey =
-    std::tuple<vtkVolumeProperty*, unsigned long, unsigned long, std::uint64_t, bool, double>;
-  MediumKey LastMedium{ nullptr, 0, 0, 0, false, 0.0 };
+  using MediumKey = std::
+    tuple<vtkVolumeProperty*, unsigned long, unsigned long, std::uint64_t, bool, double, double>;
+  MediumKey LastMedium{ nullptr, 0, 0, 0, false, 0.0, 0.0 };
   std::uint64_t LastVoxels = 0;
 };
 

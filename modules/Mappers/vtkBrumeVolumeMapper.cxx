@@ -8,10 +8,13 @@
 
 #include "Transport/film.h"
 
+#include "vtkBrumeSparseVolume.h"
+
 #include "vtkCamera.h"
 #include "vtkCommand.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
+#include "vtkInformation.h"
 #include "vtkLightCollection.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -60,6 +63,27 @@ void vtkBrumeVolumeMapper::SetMaskInput(vtkImageData* mask)
     this->Internal->Mask = mask;
     this->Modified();
   }
+}
+
+int vtkBrumeVolumeMapper::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (!this->Superclass::FillInputPortInformation(port, info))
+  {
+    return 0;
+  }
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkBrumeSparseVolume");
+  return 1;
+}
+
+double* vtkBrumeVolumeMapper::GetBounds()
+{
+  if (!vtkBrumeSparseVolume::SafeDownCast(this->GetDataObjectInput()))
+  {
+    return this->Superclass::GetBounds();
+  }
+  this->Update();
+  vtkBrumeSparseVolume::SafeDownCast(this->GetDataObjectInput())->GetBounds(this->Bounds);
+  return this->Bounds;
 }
 
 vtkImageData* vtkBrumeVolumeMapper::GetMaskInput()
@@ -138,6 +162,7 @@ brume::Scene* vtkBrumeVolumeMapper::UpdateScene(vtkVolume* volume, const brume::
     wrong = this->Internal->Builder.Update(this,
       volume,
       { this->Internal->Mask, this->MaskType == LabelMapMaskType, this->MaskBlendFactor },
+      this->Extinction,
       own);
   }
   catch (const std::bad_alloc&)
@@ -476,6 +501,7 @@ void vtkBrumeVolumeMapper::ReleaseGraphicsResources(vtkWindow* window)
 void vtkBrumeVolumeMapper::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "Extinction: " << this->Extinction << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "TwoSidedLighting: " << (this->TwoSidedLighting ? "On" : "Off") << "\n";

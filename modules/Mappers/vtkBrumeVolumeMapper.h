@@ -15,7 +15,7 @@
  * mappers do, makes its picture on the CPU, and blends it into the frame. Opaque geometry that was
  * drawn before hides what is behind it. Input is a vtkImageData of any type, points or cells: of
  * one to four independent components, of two dependent ones (colour, opacity), or of four dependent
- * ones of unsigned char (red, green, blue, opacity).
+ * ones of unsigned char (red, green, blue, opacity). Or a vtkBrumeSparseVolume, which stays sparse.
  *
  * RenderFilm() and RenderImage() make the same picture with no window, no OpenGL and no display.
  *
@@ -166,6 +166,23 @@ public:
   vtkGetMacro(ReportProgress, bool);
   ///@}
 
+  ///@{
+  /**
+   * Extinction coefficient per unit of length and of value, for input that is a density of matter:
+   * the property's functions are not read then, values below 0 count as 0, and the matter absorbs
+   * and does not emit. Default 0: values are classified by the property. Negative values are set to
+   * 0. One component only.
+   */
+  vtkSetClampMacro(Extinction, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(Extinction, double);
+  ///@}
+
+  /**
+   * The bounds of the input, an image or a sparse volume, in its own coordinates.
+   */
+  using vtkVolumeMapper::GetBounds;
+  double* GetBounds() VTK_SIZEHINT(6) override;
+
   /**
    * What the last render took and did, as a JSON object: mapper, seconds (the render alone),
    * seconds_prepare (scans, tables, step choice), samples, rays, threads, simd, effects (a list of
@@ -242,6 +259,7 @@ public:
 protected:
   vtkBrumeVolumeMapper();
   ~vtkBrumeVolumeMapper() override;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
 
   /**
    * Fills the film with a picture of the scene. Subclasses report through ReportProgress, and put
@@ -277,6 +295,7 @@ protected:
   /// Pixels between the rays of the picture that is being made.
   double ImageSampleDistanceInUse = 1.0;
   double Tolerance = 0.004;
+  double Extinction = 0.0;
   int NumberOfThreads = 0;
   vtkTypeBool TwoSidedLighting = 1;
   vtkTypeBool CombineVolumes = 1;

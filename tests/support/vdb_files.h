@@ -52,6 +52,7 @@ inline std::string write(const std::string& folder,
 {
   const std::string path = folder + "/" + name;
   openvdb::io::File file(path);
+  file.setCompression(openvdb::io::COMPRESS_ZIP | openvdb::io::COMPRESS_ACTIVE_MASK);
   file.write(grids);
   file.close();
   return path;
