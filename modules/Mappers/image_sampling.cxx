@@ -86,20 +86,4 @@ void apply_window_level(Film& film, double window, double level)
   }
 }
 
-void add_weighted(Film& sum, const Film& film, double weight)
-{
-  const float w = static_cast<float>(weight);
-  for (std::size_t i = 0; i < sum.size(); ++i)
-  {
-    for (int c = 0; c < 3; ++c)
-    {
-      sum.radiance[c][i] += w * film.radiance[c][i];
-      sum.transmittance[c][i] =
-        std::max(0.0f, sum.transmittance[c][i] - w * (1.0f - film.transmittance[c][i]));
-    }
-    sum.depth[i] = std::min(sum.depth[i], film.depth[i]);
-    sum.error[i] = std::max(sum.error[i], film.error[i]);
-  }
-}
-
 }

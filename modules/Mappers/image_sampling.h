@@ -35,9 +35,6 @@ Film averaged(const Film& film, int per_pixel);
 /// transmittance), not below 0. `window` is not 0.
 void apply_window_level(Film& film, double window, double level);
 
-/// Adds pictures of projections: radiance times weight, opacity times weight up to 1.
-void add_weighted(Film& sum, const Film& film, double weight);
-
 }
 
 #endif

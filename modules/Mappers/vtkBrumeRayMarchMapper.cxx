@@ -1,6 +1,5 @@
 #include "vtkBrumeRayMarchMapper.h"
 
-#include "image_sampling.h"
 #include "march_report.h"
 
 #include "Transport/film.h"
@@ -46,28 +45,11 @@ std::vector<double> StepKeyOf(const brume::Scene& scene, double tolerance)
   return key;
 }
 
-void Add(brume::MarchStatistics& sum, const brume::MarchStatistics& march)
-{
-  sum.seconds_prepare += march.seconds_prepare;
-  sum.seconds += march.seconds;
-  sum.samples += march.samples;
-  sum.rays = std::max(sum.rays, march.rays);
-  sum.threads = march.threads;
-  sum.simd = march.simd;
-  sum.step = march.step;
-  sum.rule = march.rule;
-  sum.non_finite_voxels += march.non_finite_voxels;
-  sum.bricks += march.bricks;
-  sum.visible_bricks += march.visible_bricks;
-  sum.completed = march.completed;
-}
-
 }
 
 struct vtkBrumeRayMarchMapper::Internals
 {
-  /// One for the scene; of projections one for each component.
-  brume::Marcher Marchers[VTK_MAX_VRCOMP];
+  brume::Marcher Marcher;
   std::vector<double> LastStep;
   brume::StepChoice Choice;
   vtkNew<vtkContourValues> DepthPassContourValues; ///< kept for callers; nothing reads it
@@ -198,7 +180,7 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& scene, brume::Film& film)
     if (key != this->Internal->LastStep)
     {
       const auto start = std::chrono::steady_clock::now();
-      this->Internal->Choice = brume::choose_step(this->Internal->Marchers[0], scene,
+      this->Internal->Choice = brume::choose_step(this->Internal->Marcher, scene,
         std::max(StepShare * this->Tolerance, 1e-9), this->NumberOfThreads);
       this->Internal->LastStep = key;
       secondsStep =
@@ -212,11 +194,8 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& scene, brume::Film& film)
     settings.step = this->FixedStep();
   }
 
-  const brume::MarchStatistics march =
-    scene.blend_mode != brume::BlendMode::Composite && scene.volumes.size() > 1
-      ? this->RenderComponents(scene, settings, film)
-      : this->Internal->Marchers[0].render(
-          scene, settings, film, [this](double fraction) { return this->TellProgress(fraction); });
+  const brume::MarchStatistics march = this->Internal->Marcher.render(
+    scene, settings, film, [this](double fraction) { return this->TellProgress(fraction); });
   this->SecondsRender = march.seconds;
 
   if (march.rays == 0)
@@ -262,54 +241,6 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& scene, brume::Film& film)
   statistics["completed"] = march.completed;
   this->Statistics = statistics.dump(2);
   return march.completed;
-}
-
-brume::MarchStatistics vtkBrumeRayMarchMapper::RenderComponents(const brume::Scene& scene,
-  const brume::MarchSettings& settings,
-  brume::Film& film)
-{
-  // Projections are of one volume. Of several components each has its own, and as in VTK's GPU
-  // mapper their pictures add up by weight, or surfaces are those of the heaviest.
-  std::size_t from = 0;
-  std::size_t until = scene.volumes.size();
-  if (scene.blend_mode == brume::BlendMode::Isosurface)
-  {
-    const auto lighter = [](const brume::Volume& a, const brume::Volume& b)
-    { return a.weight < b.weight; };
-    from =
-      std::max_element(scene.volumes.begin(), scene.volumes.end(), lighter) - scene.volumes.begin();
-    until = from + 1;
-  }
-  brume::MarchStatistics sum;
-  brume::Scene one = scene;
-  one.volumes.resize(1);
-  brume::Film part(film.width, film.height);
-  film = part;
-  for (std::size_t i = from; i < until; ++i)
-  {
-    one.volumes[0] = scene.volumes[i];
-    one.volumes[0].weight = 1.0;
-    const brume::MarchStatistics march = this->Internal->Marchers[i].render(one,
-      settings,
-      part,
-      [&](double fraction) { return this->TellProgress((i - from + fraction) / (until - from)); });
-    Add(sum, march);
-    if (!march.completed)
-    {
-      break;
-    }
-    brume::add_weighted(film, part, until - from == 1 ? 1.0 : scene.volumes[i].weight);
-  }
-  const bool grey = scene.blend_mode == brume::BlendMode::AverageIntensity ||
-                    scene.blend_mode == brume::BlendMode::Additive;
-  for (int c = 0; c < 3 && grey; ++c)
-  {
-    for (float& radiance : film.radiance[c])
-    {
-      radiance = std::min(radiance, 1.0f);
-    }
-  }
-  return sum;
 }
 
 void vtkBrumeRayMarchMapper::PrintSelf(ostream& os, vtkIndent indent)

@@ -29,12 +29,6 @@ class vtkContourValues;
 class vtkRenderWindow;
 class vtkVolumeProperty;
 
-namespace brume
-{
-struct MarchSettings;
-struct MarchStatistics;
-}
-
 class VTKBRUMEMAPPERS_EXPORT vtkBrumeRayMarchMapper : public vtkBrumeVolumeMapper
 {
 public:
@@ -192,9 +186,6 @@ private:
   vtkBrumeRayMarchMapper(const vtkBrumeRayMarchMapper&) = delete;
   void operator=(const vtkBrumeRayMarchMapper&) = delete;
 
-  brume::MarchStatistics RenderComponents(const brume::Scene& scene,
-    const brume::MarchSettings& settings,
-    brume::Film& film);
   double FixedStep();
 
   vtkTypeBool AutoAdjustSampleDistances = 1;
