@@ -28,11 +28,10 @@ struct Half
 HWY_INLINE Real real_from_half(Int bits)
 {
   // The exponent moves by 127 − 15, by a multiplication that also brings denormals into place.
-  const Real shifted =
-    hn::BitCast(float_tag, hn::ShiftLeft<13>(hn::And(bits, integer(0x7fff))));
+  const Real shifted = hn::BitCast(float_tag, hn::ShiftLeft<13>(hn::And(bits, integer(0x7fff))));
   const Int magnitude = hn::BitCast(int_tag, shifted * real(0x1p112f));
-  const Int special = hn::IfThenElseZero(
-    hn::And(bits, integer(0x7c00)) == integer(0x7c00), integer(0x7f800000));
+  const Int special =
+    hn::IfThenElseZero(hn::And(bits, integer(0x7c00)) == integer(0x7c00), integer(0x7f800000));
   const Int sign = hn::ShiftLeft<16>(hn::And(bits, integer(0x8000)));
   return hn::BitCast(float_tag, hn::Or(hn::Or(magnitude, special), sign));
 }
@@ -106,8 +105,7 @@ private:
     Int page = x.page + y.page + z.page;
     if (HWY_UNLIKELY(Table.directory_shift > 0))
     {
-      page = page +
-        hn::GatherIndex(int_tag, Table.directory.data(), x.cube + y.cube + z.cube);
+      page = page + hn::GatherIndex(int_tag, Table.directory.data(), x.cube + y.cube + z.cube);
     }
     const Int base = hn::GatherIndex(int_tag, Table.pages.data(), page);
     return hn::GatherIndex(int_tag, Table.slots.data(), base + x.slot + y.slot + z.slot);
@@ -152,8 +150,8 @@ private:
     Real rows[4];
     for (int row = 0; row < 4; ++row)
     {
-      const Int yz = (row & 1 ? high[1].voxel : low[1].voxel) +
-        (row >> 1 ? high[2].voxel : low[2].voxel);
+      const Int yz =
+        (row & 1 ? high[1].voxel : low[1].voxel) + (row >> 1 ? high[2].voxel : low[2].voxel);
       Real a, b;
       if (sizeof(T) <= 2 && !crosses[0])
       {
@@ -169,17 +167,21 @@ private:
       rows[row] = lerp(a, b, cell.fraction[0]);
     }
     return lerp(lerp(rows[0], rows[1], cell.fraction[1]),
-      lerp(rows[2], rows[3], cell.fraction[1]), cell.fraction[2]);
+      lerp(rows[2], rows[3], cell.fraction[1]),
+      cell.fraction[2]);
   }
 
   /// Of the four rows of a cell, given the first's slot.
-  HWY_INLINE void find_slots(const Terms& x, const Terms (&low)[3], const Terms (&high)[3],
-    const bool (&crosses)[3], Int (&slots)[4]) const
+  HWY_INLINE void find_slots(const Terms& x,
+    const Terms (&low)[3],
+    const Terms (&high)[3],
+    const bool (&crosses)[3],
+    Int (&slots)[4]) const
   {
     slots[1] = crosses[1] ? slot(x, high[1], low[2]) : slots[0];
     slots[2] = crosses[2] ? slot(x, low[1], high[2]) : slots[0];
     slots[3] = crosses[1] && crosses[2] ? slot(x, high[1], high[2])
-      : crosses[1]                      ? slots[1]
+               : crosses[1]             ? slots[1]
                                         : slots[2];
   }
 
@@ -187,11 +189,11 @@ private:
   /// first one, and that of the last.
   struct Taps
   {
-    Int voxel[3][4];                  ///< Terms::voxel of each
-    hn::Mask<IntTag> in_last[3][4];   ///< lanes in which it lies in the last one's brick
-    bool crosses[3];                  ///< whether any lane has two bricks along the axis
-    /// By brick: bit 0 for the last one's along x, bit 1 along y, bit 2 along z. 0 where that axis is
-    /// not crossed.
+    Int voxel[3][4];                ///< Terms::voxel of each
+    hn::Mask<IntTag> in_last[3][4]; ///< lanes in which it lies in the last one's brick
+    bool crosses[3];                ///< whether any lane has two bricks along the axis
+    /// By brick: bit 0 for the last one's along x, bit 1 along y, bit 2 along z. 0 where that axis
+    /// is not crossed.
     Int slots[8];
   };
 
@@ -222,10 +224,10 @@ private:
     for (int brick = 0; brick < 8; ++brick)
     {
       const bool asked = (taps.crosses[0] || !(brick & 1)) && (taps.crosses[1] || !(brick & 2)) &&
-        (taps.crosses[2] || !(brick & 4));
+                         (taps.crosses[2] || !(brick & 4));
       taps.slots[brick] = asked
-        ? slot(ends[0][brick & 1], ends[1][brick >> 1 & 1], ends[2][brick >> 2])
-        : hn::Zero(int_tag);
+                            ? slot(ends[0][brick & 1], ends[1][brick >> 1 & 1], ends[2][brick >> 2])
+                            : hn::Zero(int_tag);
     }
     return taps;
   }
@@ -286,12 +288,10 @@ private:
     {
       const Real y_before = edge(cell, taps, 0, 1 + side);
       const Real y_after = edge(cell, taps, 3, 1 + side);
-      slope_y[side] =
-        lerp(middle[side][1] - y_before, y_after - middle[side][0], cell.fraction[1]);
+      slope_y[side] = lerp(middle[side][1] - y_before, y_after - middle[side][0], cell.fraction[1]);
       const Real z_before = edge(cell, taps, 1 + side, 0);
       const Real z_after = edge(cell, taps, 1 + side, 3);
-      slope_z[side] =
-        lerp(middle[1][side] - z_before, z_after - middle[0][side], cell.fraction[2]);
+      slope_z[side] = lerp(middle[1][side] - z_before, z_after - middle[0][side], cell.fraction[2]);
     }
     const Real half = real(0.5f);
     return { lerp(slope_x[0], slope_x[1], cell.fraction[2]) * half,
