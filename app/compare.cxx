@@ -170,6 +170,7 @@ SceneDescription describe(const VolumeScene& scene, double step)
     { "opacity unit distance", length(scene.opacity_unit_distance, unit), all },
     { "sample distance", length(step, unit) + " (" + text(d.step_voxels) + " voxel)", all },
     { "interpolation", d.interpolation, all },
+    { "blend mode", scene.options.modes.blend_mode, all },
     { "shading", d.shading ? "on" : "off", all },
     { "camera", d.camera.parallel ? "parallel" : "perspective", all },
     { "resolution", std::to_string(d.width) + " x " + std::to_string(d.height), all },
@@ -240,6 +241,7 @@ void write_outputs(const OutputFolder& folder, const Comparison& comparison,
 void run(const Options& options)
 {
   const std::vector<MapperName> wanted = wanted_mappers(options);
+  check(options.scene.modes);
   if (options.scene.extinction > 0.0)
   {
     throw Failure("--extinction", "VTK's own mappers do not draw densities",
@@ -265,31 +267,31 @@ void run(const Options& options)
   for (const MapperName& mapper : wanted)
   {
     InterruptionWatch::check("compare");
-    if (mapper.kind != MapperKind::RayMarch)
+    std::string cannot = not_drawn_by(options.scene.modes, mapper.kind);
+    if (cannot.empty() && mapper.kind != MapperKind::RayMarch)
     {
-      std::string reason;
       if (scene.input.sparse)
       {
-        reason = "it would need the volume dense";
+        cannot = "it would need the volume dense";
       }
       else if (!display)
       {
         display.emplace();
       }
-      if (display && !display->available())
+      if (cannot.empty() && display && !display->available())
       {
-        reason = display->reason();
+        cannot = display->reason();
       }
-      if (!reason.empty())
-      {
-        ComparisonEntry skipped;
-        skipped.mapper = mapper.name;
-        skipped.title = mapper.title;
-        skipped.class_name = mapper.class_name;
-        skipped.skipped = reason;
-        comparison.entries.push_back(skipped);
-        continue;
-      }
+    }
+    if (!cannot.empty())
+    {
+      ComparisonEntry skipped;
+      skipped.mapper = mapper.name;
+      skipped.title = mapper.title;
+      skipped.class_name = mapper.class_name;
+      skipped.skipped = cannot;
+      comparison.entries.push_back(skipped);
+      continue;
     }
     if (options.scene.verbose)
     {

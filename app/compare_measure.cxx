@@ -83,6 +83,9 @@ ComparisonMeasure::ComparisonMeasure(const VolumeScene& scene, double step, int 
   this->Mapper->SetNumberOfThreads(scene.options.threads);
   this->Mapper->AutoAdjustSampleDistancesOff();
   this->Mapper->SetSampleDistance(step);
+  apply(scene.options.modes, this->Mapper, scene.volume->GetProperty());
+  this->Mapper->SetMaskInput(scene.mask);
+  this->Mapper->SetMaskTypeToBinary();
   vtkNew<vtkCallbackCommand> observer;
   observer->SetCallback(
     [](vtkObject* caller, unsigned long, void*, void*)

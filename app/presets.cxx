@@ -232,11 +232,6 @@ void apply(const Preset& preset, vtkDataObject* volume, vtkVolumeProperty* prope
   {
     opacity->AddPoint(range[0] + p.value * scale, p.opacity);
   }
-  property->SetColor(colour);
-  property->SetScalarOpacity(opacity);
-  property->SetScalarOpacityUnitDistance(opacity_unit_distance(preset, volume));
-
-  property->SetDisableGradientOpacity(preset.gradient_opacity.empty() ? 1 : 0);
   vtkNew<vtkPiecewiseFunction> gradient;
   for (const OpacityPoint& p : preset.gradient_opacity)
   {
@@ -246,14 +241,22 @@ void apply(const Preset& preset, vtkDataObject* volume, vtkVolumeProperty* prope
   {
     gradient->AddPoint(0.0, 1.0);
   }
-  property->SetGradientOpacity(gradient);
 
   property->SetInterpolationTypeToLinear();
-  property->SetShade(preset.shading.on ? 1 : 0);
-  property->SetAmbient(preset.shading.ambient);
-  property->SetDiffuse(preset.shading.diffuse);
-  property->SetSpecular(preset.shading.specular);
-  property->SetSpecularPower(preset.shading.power);
+  const double unit = opacity_unit_distance(preset, volume);
+  for (int c = 0; c < VTK_MAX_VRCOMP; ++c) // each component alike
+  {
+    property->SetColor(c, colour);
+    property->SetScalarOpacity(c, opacity);
+    property->SetScalarOpacityUnitDistance(c, unit);
+    property->SetDisableGradientOpacity(c, preset.gradient_opacity.empty() ? 1 : 0);
+    property->SetGradientOpacity(c, gradient);
+    property->SetShade(c, preset.shading.on ? 1 : 0);
+    property->SetAmbient(c, preset.shading.ambient);
+    property->SetDiffuse(c, preset.shading.diffuse);
+    property->SetSpecular(c, preset.shading.specular);
+    property->SetSpecularPower(c, preset.shading.power);
+  }
 }
 
 PresetChoice choose_preset(vtkDataObject* volume, const VolumeHints& hints)

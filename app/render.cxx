@@ -61,6 +61,9 @@ Drawn draw_ray_march(const VolumeScene& scene)
   mapper->SetExtinction(scene.options.extinction);
   mapper->SetTolerance(scene.options.tolerance);
   mapper->SetNumberOfThreads(scene.options.threads);
+  apply(scene.options.modes, mapper, scene.volume->GetProperty());
+  mapper->SetMaskInput(scene.mask);
+  mapper->SetMaskTypeToBinary();
   if (scene.options.sample_distance)
   {
     mapper->AutoAdjustSampleDistancesOff();
@@ -177,6 +180,12 @@ void run(const Options& options)
     throw Failure(error.what(), BadCall);
   }
   const MapperName& mapper = find_mapper(options.mapper, "--mapper");
+  check(options.scene.modes);
+  const std::string cannot = not_drawn_by(options.scene.modes, mapper.kind);
+  if (!cannot.empty())
+  {
+    throw Failure("--mapper " + options.mapper, cannot, "take --mapper raymarch", BadCall);
+  }
   if (options.scene.extinction > 0.0 && mapper.kind != MapperKind::RayMarch)
   {
     throw Failure("--extinction", "VTK's own mappers do not draw densities",

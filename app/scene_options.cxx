@@ -144,6 +144,8 @@ void add_scene_options(CLI::App& command, SceneOptions& o, const std::string& sh
     ->check(one_of({ "linear", "nearest" }))
     ->group(look);
 
+  add_mode_options(command, o.modes);
+
   command
     .add_option("--sample-distance", o.sample_distance,
       "Fixed distance between samples, in world units")

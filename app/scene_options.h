@@ -1,6 +1,8 @@
 // The scene options, which are the same for every subcommand that draws.
 #pragma once
 
+#include "mode_options.h"
+
 #include <array>
 #include <optional>
 #include <string>
@@ -35,6 +37,7 @@ struct SceneOptions
   std::optional<double> sample_distance;       ///< world units
   std::string interpolation = "linear";
   std::string shade = "preset"; ///< on, off, or preset: as the preset has it
+  ModeOptions modes;
   double tolerance = 0.004;
   int threads = 0;
   bool quiet = false;

@@ -131,9 +131,13 @@ StockRenderer::StockRenderer(const VolumeScene& scene, MapperKind kind, double s
     in.Gpu->SetSampleDistance(static_cast<float>(step));
     in.Gpu->SetImageSampleDistance(1.0f);
     in.Gpu->UseJitteringOff();
+    in.Gpu->SetMaskInput(scene.mask);
+    in.Gpu->SetMaskTypeToBinary();
     in.Volume->SetMapper(in.Gpu);
     in.observe(in.Gpu);
   }
+  apply(scene.options.modes, this->mapper(), in.Volume->GetProperty());
+  apply_cropping_of_voxels(scene.cropping, in.Image, this->mapper()); // the image lost its place
   in.observe(in.Window);
   in.Window->SetOffScreenRendering(1);
   in.Window->SetMultiSamples(0);

@@ -42,11 +42,12 @@ constexpr double fill = 0.96;
 
 /// The corners, in the world, of each brick of the volume that can be seen with its transfer
 /// functions; of the whole volume where none can.
-std::vector<glm::dvec3> visible_corners(const VolumeScene& scene)
+std::vector<glm::dvec3> visible_corners(VolumeScene& scene)
 {
   vtkNew<vtkBrumeRayMarchMapper> mapper;
   mapper->SetInputDataObject(scene.input.data());
   mapper->SetExtinction(scene.options.extinction);
+  apply(scene.options.modes, mapper, scene.volume->GetProperty());
   scene.volume->SetMapper(mapper);
   std::string error;
   vtkNew<vtkCallbackCommand> observer; // in place of the standard error stream
@@ -66,6 +67,7 @@ std::vector<glm::dvec3> visible_corners(const VolumeScene& scene)
       (address == std::string::npos ? "it cannot be drawn: see brume info"
                                     : error.substr(address + 3, error.find_last_not_of("\n ") - address - 2)));
   }
+  scene.cropping = plain->volumes[0].cropping;
   const BrickRanges& ranges = *plain->volumes[0].ranges;
   LookupTable table;
   const bool density = plain->volumes[0].meaning == ValueMeaning::Density;
@@ -165,7 +167,7 @@ void fit_camera(const std::vector<glm::dvec3>& points, vtkCamera* camera, double
   camera->SetViewUp(view_up.x, view_up.y, view_up.z);
 }
 
-vtkSmartPointer<vtkCamera> make_camera(const VolumeScene& scene)
+vtkSmartPointer<vtkCamera> make_camera(VolumeScene& scene)
 {
   const SceneOptions& options = scene.options;
   auto camera = vtkSmartPointer<vtkCamera>::New();
@@ -234,6 +236,7 @@ VolumeScene make_volume_scene(const SceneOptions& options)
   {
     scene.preset = &find_preset(options.preset); // before the work of reading
   }
+  check(options.modes);
   const bool density = options.extinction > 0.0;
   const double behind = density ? 1.0 : 0.0;
   scene.options.background = options.background_choice.value_or(
@@ -259,19 +262,23 @@ VolumeScene make_volume_scene(const SceneOptions& options)
   }
 
   check_sample_distance(scene);
+  scene.mask = open_mask(options.modes, scene.input.image, options.input, options.quiet);
   InterruptionWatch::check(options.input.c_str());
   vtkNew<vtkVolumeProperty> property;
   if (scene.preset)
   {
     apply(*scene.preset, scene.input.data(), property);
   }
-  if (options.opacity_unit_distance)
+  for (int c = 0; c < VTK_MAX_VRCOMP; ++c)
   {
-    property->SetScalarOpacityUnitDistance(*options.opacity_unit_distance);
-  }
-  if (options.shade != "preset")
-  {
-    property->SetShade(options.shade == "on");
+    if (options.opacity_unit_distance)
+    {
+      property->SetScalarOpacityUnitDistance(c, *options.opacity_unit_distance);
+    }
+    if (options.shade != "preset")
+    {
+      property->SetShade(c, options.shade == "on");
+    }
   }
   property->SetInterpolationType(
     options.interpolation == "nearest" ? VTK_NEAREST_INTERPOLATION : VTK_LINEAR_INTERPOLATION);

@@ -9,6 +9,7 @@
 #include <string>
 
 class vtkCamera;
+class vtkImageData;
 class vtkLightCollection;
 class vtkVolume;
 
@@ -24,6 +25,8 @@ struct VolumeScene
   const Preset* preset = nullptr; ///< null for a density (--extinction)
   std::string preset_reason; ///< why this preset; empty when the user named it
   vtkSmartPointer<vtkVolume> volume; ///< with its property, without a mapper
+  vtkSmartPointer<vtkImageData> mask; ///< 0 or 1 for each voxel; null for none
+  Cropping cropping;                  ///< in voxels
   vtkSmartPointer<vtkCamera> camera; ///< clipping range fits the volume
   vtkSmartPointer<vtkLightCollection> lights; ///< one headlight, white
   double voxel_edge = 1.0;            ///< the smallest edge of a voxel, world units

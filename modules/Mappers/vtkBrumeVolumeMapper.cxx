@@ -419,6 +419,10 @@ void vtkBrumeVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
   {
     return;
   }
+  if (renderer->GetSelector())
+  {
+    return; // colours there are names of props, which a film would paint over
+  }
   std::vector<vtkVolume*> others;
   double allocated = volume->GetAllocatedRenderTime();
   if (this->CombineVolumes && this->GetBlendMode() == COMPOSITE_BLEND)

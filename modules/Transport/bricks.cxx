@@ -89,8 +89,8 @@ void measure(const Grid& grid, BrickRanges& result)
     non_finite += bad;
   };
 
-  // A layer of bricks is a task. Its rows of voxels are read in the order in which they lie in memory,
-  // those on the border of two bricks twice.
+  // A layer of bricks is a task. Its rows of voxels are read in the order in which they lie in
+  // memory, those on the border of two bricks twice.
   tbb::parallel_for(tbb::blocked_range<int>(0, result.dims[2]),
     [&](const tbb::blocked_range<int>& layers)
     {
@@ -109,8 +109,8 @@ void measure(const Grid& grid, BrickRanges& result)
           {
             for (int y = edge * by; y <= y_end; ++y)
             {
-              all_finite &= widen_ranges(
-                row_at(y, z), row_values, columns.lower.data(), columns.upper.data());
+              all_finite &=
+                widen_ranges(row_at(y, z), row_values, columns.lower.data(), columns.upper.data());
             }
           }
           for (int bx = 0; bx < result.dims[0]; ++bx)
@@ -202,7 +202,8 @@ namespace
 class Sight
 {
 public:
-  Sight(const BrickRanges& ranges, const std::function<bool(float, float)>& can_show,
+  Sight(const BrickRanges& ranges,
+    const std::function<bool(float, float)>& can_show,
     float empty_value)
     : Ranges(ranges)
     , CanShow(can_show)
@@ -240,8 +241,8 @@ private:
   bool LastAnswer = false;
 };
 
-/// Lets each brick of a row be as near as one more than the nearest of its three neighbours in the row
-/// beside it.
+/// Lets each brick of a row be as near as one more than the nearest of its three neighbours in the
+/// row beside it.
 void come_nearer(const std::int32_t* beside, int count, std::int32_t* row)
 {
   if (count == 1)
@@ -260,7 +261,8 @@ void come_nearer(const std::int32_t* beside, int count, std::int32_t* row)
 }
 
 VisibleBricks find_visible_bricks(const BrickRanges& ranges,
-  const std::function<bool(float, float)>& can_show, float empty_value)
+  const std::function<bool(float, float)>& can_show,
+  float empty_value)
 {
   VisibleBricks result;
   result.shift = ranges.shift;
@@ -274,9 +276,10 @@ VisibleBricks find_visible_bricks(const BrickRanges& ranges,
   std::int32_t* distance = result.distance.data();
   std::atomic<std::size_t> visible{ 0 };
   // A chess king's shortest way to a brick can be ordered: first along z and then along y, a step
-  // aside in the same move where that is nearer, and the rest along x. So the distance is exact after
-  // a pass to and fro along x, one along y that looks at three neighbours, and one along z that looks
-  // at nine (cf. Rosenfeld and Pfaltz, Sequential operations in digital picture processing, 1966).
+  // aside in the same move where that is nearer, and the rest along x. So the distance is exact
+  // after a pass to and fro along x, one along y that looks at three neighbours, and one along z
+  // that looks at nine (cf. Rosenfeld and Pfaltz, Sequential operations in digital picture
+  // processing, 1966).
   tbb::parallel_for(tbb::blocked_range<int>(0, nz),
     [&](const tbb::blocked_range<int>& planes)
     {

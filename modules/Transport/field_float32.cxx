@@ -4,7 +4,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "Transport/field-inl.h"
+#include "Transport/dense_field-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace brume

@@ -64,6 +64,11 @@ public:
     return { channel<0>(nodes, place), channel<1>(nodes, place), channel<2>(nodes, place) };
   }
 
+  HWY_INLINE Classified at(const Place& place) const
+  {
+    return { colour(place), extinction(place) };
+  }
+
   /// The number of the stretch of even slopes that a position lies in.
   HWY_INLINE Int stretch(Real position) const
   {

@@ -275,6 +275,23 @@ LookupTable make_lookup_table(const Classification& c, const std::vector<Classif
   return table;
 }
 
+void hold_opacities(LookupTable& table,
+  const Classification& classification,
+  const std::vector<Classification>& labels)
+{
+  for (std::size_t i = 0; i < table.nodes.size(); ++i)
+  {
+    const std::size_t per_class = table.intervals + 1;
+    const Classification& c =
+      i < per_class ? classification : labels[i / per_class - 1];
+    const double value =
+      c.lower + (c.upper - c.lower) * double(i % per_class) / table.intervals;
+    const double opacity = interpolate(
+      c.opacity.data(), table_position(value, c.lower, c.upper, c.opacity.size()));
+    table.nodes[i].extinction = opacity > 0.0 ? static_cast<float>(std::min(opacity, 1.0)) : 0.0f;
+  }
+}
+
 VisibleValues::VisibleValues(double lower, double upper, const std::vector<bool>& visible)
   : Lower(lower)
   , Scale((visible.size() - 1) / (upper - lower))

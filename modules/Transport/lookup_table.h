@@ -93,6 +93,12 @@ struct LookupTable
 LookupTable make_lookup_table(const Classification& classification,
   const std::vector<Classification>& labels = {});
 
+/// Puts the opacities, which are of no length, into a table in place of the extinctions: what all
+/// modes but Composite draw. The arguments are those that the table was made of.
+void hold_opacities(LookupTable& table,
+  const Classification& classification,
+  const std::vector<Classification>& labels);
+
 /// Position of `value` among `count` nodes over [lower, upper]: the interval and the fraction in it.
 struct TablePosition
 {

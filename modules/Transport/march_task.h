@@ -36,6 +36,22 @@ struct VolumeTask
   FieldView labels;
   /// For each label the first of its nodes in the table, or −1 for a hidden one.
   std::array<std::int32_t, 256> first_node{};
+
+  /// Extremes: 1 for the largest value, −1 for the smallest; the largest of sign · value in each
+  /// brick and in all.
+  ///@{
+  float sign = 1.0f;
+  const float* bounds = nullptr;
+  int brick_dims[3] = { 0, 0, 0 };
+  int brick_shift = 3; ///< log2 of their edge
+  float top = 0.0f;
+  ///@}
+  float black = 0.0f;  ///< greys: the value that is black
+  float whiten = 0.0f; ///< greys: what a value above it is times to be a grey
+  float per_unit = 1.0f; ///< greys: 1 / unit distance
+  /// Isosurfaces: colour and opacity of each value, for the classification and then for each label.
+  const LookupNode* surfaces = nullptr;
+  float slice[4] = { 0, 0, 0, 0 }; ///< the plane in index space
 };
 
 struct MarchTask
@@ -48,6 +64,8 @@ struct MarchTask
   float step_error = 0.0f;            ///< part of Film::error
   float brightest = 1.0f;             ///< bound of the light that may come from behind
   float leave_below = 0.0f;           ///< a ray ends when its transmittance is below this
+  float average_range[2] = { 0, 0 };
+  std::vector<float> isosurfaces;     ///< sorted, each once
   int x0 = 0, x1 = 0, y0 = 0, y1 = 0; ///< the tile's pixels
   Film* film = nullptr;
 };
@@ -63,5 +81,10 @@ struct MarchCount
 MarchCount march_density(const MarchTask& task);   ///< one grid of densities
 MarchCount march_composite(const MarchTask& task); ///< one classified grid
 MarchCount march_mixture(const MarchTask& task);   ///< any number of volumes, masks, colours
+MarchCount march_extreme(const MarchTask& task);   ///< MaximumIntensity, MinimumIntensity
+MarchCount march_mean(const MarchTask& task);      ///< AverageIntensity
+MarchCount march_sum(const MarchTask& task);       ///< Additive
+MarchCount march_surfaces(const MarchTask& task);  ///< Isosurface, of the first volume
+MarchCount march_slice(const MarchTask& task);     ///< Slice, of the first volume
 ///@}
 }

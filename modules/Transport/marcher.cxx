@@ -1,6 +1,7 @@
 #include "Transport/marcher.h"
 
 #include "Transport/march_task.h"
+#include "Transport/mode_tables.h"
 #include "Transport/shading.h"
 
 #include <hwy/targets.h>
@@ -15,6 +16,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <mutex>
 #include <stdexcept>
 #include <thread>
@@ -43,9 +45,21 @@ bool is_plain(const Volume& volume)
 
 Integrator find_integrator(const Scene& scene)
 {
-  if (scene.blend_mode != BlendMode::Composite)
+  switch (scene.blend_mode)
   {
-    throw std::invalid_argument("this blend mode cannot be marched");
+    case BlendMode::Composite:
+      break;
+    case BlendMode::MaximumIntensity:
+    case BlendMode::MinimumIntensity:
+      return march_extreme;
+    case BlendMode::AverageIntensity:
+      return march_mean;
+    case BlendMode::Additive:
+      return march_sum;
+    case BlendMode::Isosurface:
+      return march_surfaces;
+    case BlendMode::Slice:
+      return march_slice;
   }
   if (scene.volumes.size() > 1 || !is_plain(scene.volumes[0]))
   {
@@ -74,6 +88,20 @@ double diagonal(const Volume& volume)
   return longest;
 }
 
+/// Of all volumes, in their data's units.
+double smallest_voxel_edge(const std::vector<Volume>& volumes)
+{
+  double edge = std::numeric_limits<double>::max();
+  for (const Volume& volume : volumes)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      edge = std::min(edge, glm::length(glm::dvec3(volume.data_from_index[axis])));
+    }
+  }
+  return edge;
+}
+
 }
 
 bool follows_rule(const Scene& scene, StepRule rule)
@@ -97,7 +125,7 @@ bool follows_rule(const Scene& scene, StepRule rule)
 class VolumeCache
 {
 public:
-  void update(const Volume& volume, int threads)
+  void update(const Scene& scene, const Volume& volume, int threads)
   {
     if (!this->Ranges || this->DataRevision != volume.data_revision || volume.data_revision == 0)
     {
@@ -108,7 +136,7 @@ public:
       this->HaveMedium = false;
     }
     if (this->HaveMedium && this->MediumRevision == volume.medium_revision &&
-        volume.medium_revision != 0)
+        volume.medium_revision != 0 && this->Mode.serve(scene))
     {
       return;
     }
@@ -118,13 +146,14 @@ public:
     {
       this->Table = make_lookup_table(volume.classification, volume.label_classifications);
     }
+    this->Mode.update(scene, volume, *this->Ranges, this->Table);
     const bool any = volume.weight > 0.0;
     this->Visible = find_visible_bricks(
       *this->Ranges,
       [&](float lower, float upper)
       {
-        return any && (classified ? this->Table.can_show(lower, upper)
-                                  : upper > 0.0f && volume.density.extinction > 0.0);
+        return classified ? this->Mode.can_show(scene, volume, this->Table, lower, upper)
+                          : any && upper > 0.0f && volume.density.extinction > 0.0;
       },
       this->empty_value(volume));
     this->MediumRevision = volume.medium_revision;
@@ -164,6 +193,7 @@ public:
     {
       add_mask(volume, task);
     }
+    this->Mode.fill(scene, volume, task);
     return task;
   }
 
@@ -181,7 +211,7 @@ public:
 private:
   float empty_value(const Volume& volume) const
   {
-    return volume.meaning == ValueMeaning::Classified ? this->Table.empty_value : 0.0f;
+    return volume.meaning == ValueMeaning::Classified ? this->Mode.empty_value(this->Table) : 0.0f;
   }
 
   void add_mask(const Volume& volume, VolumeTask& task) const
@@ -206,6 +236,7 @@ private:
   bool HaveMedium = false;
   std::uint64_t MediumRevision = 0;
   LookupTable Table;
+  ModeTables Mode;
   VisibleBricks Visible;
 };
 
@@ -218,7 +249,7 @@ struct Marcher::Cache
     this->volumes.resize(scene.volumes.size());
     for (std::size_t k = 0; k < scene.volumes.size(); ++k)
     {
-      this->volumes[k].update(scene.volumes[k], threads);
+      this->volumes[k].update(scene, scene.volumes[k], threads);
     }
   }
 };
@@ -251,6 +282,15 @@ MarchStatistics Marcher::render(
     throw std::invalid_argument("the film has no pixels");
   }
 
+  const bool surfaces =
+    scene.blend_mode == BlendMode::Isosurface || scene.blend_mode == BlendMode::Slice;
+  if (surfaces && scene.volumes.size() > 1)
+  {
+    Scene first = scene;
+    first.volumes.resize(1);
+    return this->render(first, settings, film, progress);
+  }
+
   MarchStatistics statistics;
   // Reset the film: rays that miss the grid do not write.
   film.clear();
@@ -258,6 +298,12 @@ MarchStatistics Marcher::render(
     settings.threads > 0 ? settings.threads : tbb::info::default_concurrency();
   tbb::task_arena arena(threads);
   double step = settings.step;
+  const bool by_cells = surfaces || scene.blend_mode == BlendMode::MaximumIntensity ||
+                        scene.blend_mode == BlendMode::MinimumIntensity;
+  if (by_cells)
+  {
+    step = smallest_voxel_edge(scene.volumes);
+  }
   for (const Volume& volume : scene.volumes)
   {
     step = std::max(step, diagonal(volume) / double(1 << 16));
@@ -284,13 +330,19 @@ MarchStatistics Marcher::render(
   common.rays = &rays;
   common.rule = follows_rule(scene, settings.rule) ? settings.rule : StepRule::Midpoint;
   common.step = step;
-  common.jitter = settings.jitter;
+  common.jitter = settings.jitter && !by_cells;
   common.step_error = static_cast<float>(settings.step_error);
   common.film = &film;
   // What is behind can change a pixel by no more than the transmittance left times the brightest of
   // the matter there and of a white background.
   common.brightest = static_cast<float>(brightest);
   common.leave_below = static_cast<float>(settings.leave_error / brightest);
+  for (int i = 0; i < 2; ++i)
+  {
+    constexpr double most = 3e38;
+    common.average_range[i] = static_cast<float>(std::clamp(scene.average_range[i], -most, most));
+  }
+  common.isosurfaces = sorted_isosurfaces(scene);
   statistics.seconds_prepare = seconds_since(start_prepare);
 
   const auto start = std::chrono::steady_clock::now();
@@ -302,7 +354,7 @@ MarchStatistics Marcher::render(
   std::atomic<int> done{ 0 };
   std::atomic<bool> aborted{ false };
   const std::thread::id caller = std::this_thread::get_id();
-  if (visible_bricks > 0)
+  if (visible_bricks > 0 || scene.blend_mode == BlendMode::Additive)
   {
     arena.execute(
       [&]

@@ -75,8 +75,10 @@ bool widen_int8(const std::int8_t* row, std::size_t n, std::int8_t* lower, std::
 {
   return widen(row, n, lower, upper);
 }
-bool widen_uint16(
-  const std::uint16_t* row, std::size_t n, std::uint16_t* lower, std::uint16_t* upper)
+bool widen_uint16(const std::uint16_t* row,
+  std::size_t n,
+  std::uint16_t* lower,
+  std::uint16_t* upper)
 {
   return widen(row, n, lower, upper);
 }
@@ -111,8 +113,10 @@ bool widen_ranges(const std::int8_t* row, std::size_t n, std::int8_t* lower, std
 {
   return HWY_DYNAMIC_DISPATCH(widen_int8)(row, n, lower, upper);
 }
-bool widen_ranges(
-  const std::uint16_t* row, std::size_t n, std::uint16_t* lower, std::uint16_t* upper)
+bool widen_ranges(const std::uint16_t* row,
+  std::size_t n,
+  std::uint16_t* lower,
+  std::uint16_t* upper)
 {
   return HWY_DYNAMIC_DISPATCH(widen_uint16)(row, n, lower, upper);
 }

@@ -7,7 +7,7 @@
 #define BRUME_SPARSE_FIELD_INL_H
 #endif
 
-#include "Transport/field-inl.h"
+#include "Transport/cell-inl.h"
 #include "Transport/sparse_voxels.h"
 
 #include <type_traits>
@@ -67,6 +67,64 @@ public:
     gradient = field.slope(cell, field.find_taps(cell));
   }
 
+  /// The voxels of a cell.
+  HWY_INLINE void read(const Cell& cell, Pair rows[4]) const
+  {
+    // Along each axis the cell's second voxel is in the first one's brick, but for rays at its end.
+    Terms low[3];
+    Terms high[3];
+    bool crosses[3];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      low[axis] = terms(axis, cell.index[axis]);
+      const auto at_end = hn::And(cell.index[axis], integer(7)) == integer(7);
+      crosses[axis] = !hn::AllFalse(int_tag, at_end);
+      if (crosses[axis])
+      {
+        high[axis] = terms(axis, cell.index[axis] + integer(1));
+      }
+      else
+      {
+        high[axis] = low[axis];
+        high[axis].voxel = low[axis].voxel + integer(1 << axis * SparseVoxels::brick_shift);
+      }
+    }
+    // The slots of the four rows' first voxels, then of their second ones.
+    Int first[4];
+    first[0] = slot(low[0], low[1], low[2]);
+    if (!crosses[0] && !crosses[1] && !crosses[2] &&
+        hn::AllTrue(int_tag, first[0] == hn::Zero(int_tag)))
+    {
+      for (int row = 0; row < 4; ++row)
+      {
+        rows[row] = { background(), background() };
+      }
+      return;
+    }
+    find_slots(low[0], low, high, crosses, first);
+    Int second[4] = { first[0], first[1], first[2], first[3] };
+    if (crosses[0])
+    {
+      second[0] = slot(high[0], low[1], low[2]);
+      find_slots(high[0], low, high, crosses, second);
+    }
+    for (int row = 0; row < 4; ++row)
+    {
+      const Int yz =
+        (row & 1 ? high[1].voxel : low[1].voxel) + (row >> 1 ? high[2].voxel : low[2].voxel);
+      if (sizeof(T) <= 2 && !crosses[0])
+      {
+        const Int bits = word(first[row], low[0].voxel + yz);
+        rows[row] = { unpack<0>(bits), unpack<8 * sizeof(T) % 32>(bits) };
+      }
+      else
+      {
+        rows[row] = { unpack<0>(word(first[row], low[0].voxel + yz)),
+          unpack<0>(word(second[row], high[0].voxel + yz)) };
+      }
+    }
+  }
+
 private:
   /// What one coordinate of a voxel adds to the places in the table and in the brick.
   struct Terms
@@ -113,62 +171,9 @@ private:
 
   HWY_INLINE Real value(const Cell& cell) const
   {
-    // Along each axis the cell's second voxel is in the first one's brick, but for rays at its end.
-    Terms low[3];
-    Terms high[3];
-    bool crosses[3];
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      low[axis] = terms(axis, cell.index[axis]);
-      const auto at_end = hn::And(cell.index[axis], integer(7)) == integer(7);
-      crosses[axis] = !hn::AllFalse(int_tag, at_end);
-      if (crosses[axis])
-      {
-        high[axis] = terms(axis, cell.index[axis] + integer(1));
-      }
-      else
-      {
-        high[axis] = low[axis];
-        high[axis].voxel = low[axis].voxel + integer(1 << axis * SparseVoxels::brick_shift);
-      }
-    }
-    // The slots of the four rows' first voxels, then of their second ones.
-    Int first[4];
-    first[0] = slot(low[0], low[1], low[2]);
-    if (!crosses[0] && !crosses[1] && !crosses[2] &&
-        hn::AllTrue(int_tag, first[0] == hn::Zero(int_tag)))
-    {
-      return background();
-    }
-    find_slots(low[0], low, high, crosses, first);
-    Int second[4] = { first[0], first[1], first[2], first[3] };
-    if (crosses[0])
-    {
-      second[0] = slot(high[0], low[1], low[2]);
-      find_slots(high[0], low, high, crosses, second);
-    }
-    Real rows[4];
-    for (int row = 0; row < 4; ++row)
-    {
-      const Int yz =
-        (row & 1 ? high[1].voxel : low[1].voxel) + (row >> 1 ? high[2].voxel : low[2].voxel);
-      Real a, b;
-      if (sizeof(T) <= 2 && !crosses[0])
-      {
-        const Int bits = word(first[row], low[0].voxel + yz);
-        a = unpack<0>(bits);
-        b = unpack<8 * sizeof(T) % 32>(bits);
-      }
-      else
-      {
-        a = unpack<0>(word(first[row], low[0].voxel + yz));
-        b = unpack<0>(word(second[row], high[0].voxel + yz));
-      }
-      rows[row] = lerp(a, b, cell.fraction[0]);
-    }
-    return lerp(lerp(rows[0], rows[1], cell.fraction[1]),
-      lerp(rows[2], rows[3], cell.fraction[1]),
-      cell.fraction[2]);
+    Pair rows[4];
+    read(cell, rows);
+    return blend(rows, cell.fraction[0], cell.fraction[1], cell.fraction[2]);
   }
 
   /// Of the four rows of a cell, given the first's slot.
@@ -384,7 +389,8 @@ private:
 template <class T>
 HWY_INLINE FieldFunctions sparse_functions()
 {
-  return { &SparseField<T>::values, &SparseField<T>::gradient };
+  using Reader = SparseField<T>;
+  return { &Reader::values, &Reader::gradient, &read_curves<Reader>, &read_extremes<Reader> };
 }
 
 }

@@ -140,6 +140,15 @@ bad_calls() {
 --tolerance 0.1 --tolerance 0.2
 --interpolation cubic
 --shade perhaps
+--blend-mode maximum
+--isovalues a
+--average-range 1
+--cropping 0,1,0,1
+--cropping 0,1,0,1,0,nan
+--cropping-flags 0x8000000
+--clipping-plane 1,0,0
+--clipping-plane 0,0,0,1
+--clipping-plane 1,0,0,1,
 --quiet --verbose
 END
 }

@@ -27,6 +27,7 @@ expect_success
 expect_output '^Usage: brume render INPUT --output FILE \[OPTIONS\]$'
 for option in resolution camera-position camera-focal-point camera-view-up camera-view-angle \
   camera-parallel-scale background preset opacity-unit-distance shade interpolation \
+  blend-mode isovalues average-range cropping cropping-flags clipping-plane mask \
   sample-distance tolerance threads quiet verbose output mapper stats; do
   expect_output "[-][-]$option\b"
 done
@@ -146,12 +147,20 @@ run render ../air.nrrd --preset ct-bone --background 1,1,1 --output void.png "${
 expect_success
 same air.png void.png
 
-case_ "more than one number a voxel that is no colour"
-printf 'NRRD0004\ntype: float\ndimension: 4\nsizes: 3 2 2 2\nkinds: vector domain domain domain\nencoding: ascii\n\n' > ../vector.nrrd
-yes 1 | head -n 24 >> ../vector.nrrd
-run render ../vector.nrrd --output a.png "${small[@]}"
+case_ "several numbers a voxel"
+# vector N FILE
+vector() {
+  printf 'NRRD0004\ntype: float\ndimension: 4\nsizes: %d 2 2 2\nkinds: vector domain domain domain\nencoding: ascii\n\n' "$1" > "$2"
+  yes 1 | head -n $((8 * $1)) >> "$2"
+}
+vector 5 ../five.nrrd
+run render ../five.nrrd --output a.png "${small[@]}"
 expect_failure 1
 expect_no_files
+vector 3 ../three.nrrd
+run render ../three.nrrd --output a.png "${small[@]}"
+expect_success
+expect_only a.png
 
 case_ "steps without measure"
 draw huge --sample-distance 1e20
@@ -171,6 +180,57 @@ expect_error '^brume: --camera-view-up: '
 run render ../blob.nrrd --output a.png --camera-view-up 0,0,0
 expect_failure 2
 expect_no_files
+
+case_ "cuts change the picture, and cuts that cut nothing do not"
+draw plain
+draw box --cropping 4,12,4,12,4,12
+differ plain.png box.png
+draw far --cropping -100,100,-100,100,-100,100
+same plain.png far.png
+draw inverted --cropping 4,12,4,12,4,12 --cropping-flags inverted-fence
+differ box.png inverted.png
+draw middle --cropping 4,12,4,12,4,12 --cropping-flags 0x2000
+same box.png middle.png
+draw everything --cropping 4,12,4,12,4,12 --cropping-flags 0x7ffffff
+# Rays are divided at the planes: the same light, to rounding.
+draw half --clipping-plane 1,0,0,-7
+differ plain.png half.png
+draw scaled --clipping-plane 10,0,0,-70
+same half.png scaled.png
+draw quarter --clipping-plane 1,0,0,-7 --clipping-plane 0,-1,0,7
+differ half.png quarter.png
+draw nothing --clipping-plane 1,0,0,-100
+draw other_side --clipping-plane -1,0,0,-100
+same nothing.png other_side.png
+differ plain.png nothing.png
+
+case_ "a mask"
+blob ../blob.nrrd
+awk 'NR < 7 { print; next } { print NR % 2 }' ../blob.nrrd > ../mask.nrrd
+draw plain
+draw masked --mask ../mask.nrrd
+differ plain.png masked.png
+draw whole --mask ../blob.nrrd
+filled ../other.nrrd 1 4 4 4
+run render ../blob.nrrd --output a.png --mask ../other.nrrd "${small[@]}"
+expect_failure 1
+expect_error '4 x 4 x 4'
+expect_no_file a.png
+run render ../blob.nrrd --output a.png --mask ../none.nrrd "${small[@]}"
+expect_failure 1
+expect_no_file a.png
+
+case_ "options of modes that do not fit together"
+for options in "--isovalues 3" "--blend-mode isosurface" "--average-range 1,2" \
+  "--cropping 1,0,0,1,0,1" "--cropping-flags fence" "--blend-mode mip --isovalues 3"; do
+  # shellcheck disable=SC2086
+  run render sample:cloud --output a.png $options
+  expect_failure 2
+  expect_no_files
+done
+run render sample:cloud --output a.png --mapper vtk-fixed-point --blend-mode additive
+expect_failure 2
+expect_error 'additive'
 
 bad_calls render a.png
 bad_inputs render --output a.png "${small[@]}"

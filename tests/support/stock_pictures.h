@@ -5,6 +5,8 @@
 
 #include "vtkBrumeRayMarchMapper.h"
 
+#include "Transport/reference.h"
+
 #include "vtkFixedPointRayCastImage.h"
 #include "vtkFixedPointVolumeRayCastMapper.h"
 #include "vtkLight.h"
@@ -103,6 +105,25 @@ inline Picture brume_picture(const Scene& scene)
   brume::Film film(size, size);
   EXPECT_TRUE(
     mapper->RenderFilm(w.volume, w.renderer->GetActiveCamera(), w.renderer->GetLights(), film));
+  return of_film(film);
+}
+
+/// The scene in double precision: what Brume's mapper is measured against.
+inline Picture reference_picture(const Scene& scene)
+{
+  Window w(scene);
+  vtkNew<vtkBrumeRayMarchMapper> mapper;
+  set_up(mapper, scene);
+  scene.mapper(mapper);
+  mapper->SetInputData(scene.image);
+  w.volume->SetMapper(mapper);
+  w.renderer->AddVolume(w.volume);
+  w.renderer->ResetCameraClippingRange();
+  const brume::Scene* plain = mapper->UpdateScene(
+    w.volume, w.renderer->GetActiveCamera(), w.renderer->GetLights(), size, size);
+  EXPECT_NE(plain, nullptr);
+  brume::Film film(size, size);
+  brume::render_reference(*plain, brume::ReferenceSettings(), film);
   return of_film(film);
 }
 

@@ -40,15 +40,14 @@ void expect_brute_force(const Grid& grid)
             {
               const float v = static_cast<float>(
                 values[((std::size_t(z) * n[1] + y) * n[0] + x) * grid.components +
-                  grid.components - 1]);
+                       grid.components - 1]);
               if (std::isfinite(v))
               {
                 a = std::min(a, v);
                 b = std::max(b, v);
               }
             }
-        const std::size_t i =
-          (std::size_t(bz) * ranges.dims[1] + by) * ranges.dims[0] + bx;
+        const std::size_t i = (std::size_t(bz) * ranges.dims[1] + by) * ranges.dims[0] + bx;
         ASSERT_EQ(ranges.minimum[i], a);
         ASSERT_EQ(ranges.maximum[i], b);
         lower = std::min(lower, a);
@@ -74,11 +73,18 @@ TYPED_TEST(BrickRange, IsThatOfAllVoxelsWithinReach)
 {
   std::mt19937 random(7);
   // Rows shorter and longer than the widest register, and no multiple of it.
-  for (const auto& n : { glm::ivec3(9, 8, 7), glm::ivec3(17, 1, 16), glm::ivec3(5, 25, 1),
-         glm::ivec3(32, 9, 10), glm::ivec3(4, 1, 1), glm::ivec3(64, 3, 2), glm::ivec3(201, 10, 11) })
+  for (const auto& n : { glm::ivec3(9, 8, 7),
+         glm::ivec3(17, 1, 16),
+         glm::ivec3(5, 25, 1),
+         glm::ivec3(32, 9, 10),
+         glm::ivec3(4, 1, 1),
+         glm::ivec3(64, 3, 2),
+         glm::ivec3(201, 10, 11) })
   {
     SCOPED_TRACE(n.x);
-    const Voxels<TypeParam> voxels(n.x, n.y, n.z,
+    const Voxels<TypeParam> voxels(n.x,
+      n.y,
+      n.z,
       [&](int, int, int)
       {
         if constexpr (std::is_floating_point_v<TypeParam>)
@@ -113,7 +119,8 @@ TEST(BrickRange, LeavesNonFiniteVoxelsOut)
   Voxels<float> voxels(19, 18, 17, [](int i, int j, int k) { return i + 100 * j - 10 * k; });
   std::mt19937 random(3);
   const float bad[] = { std::numeric_limits<float>::quiet_NaN(),
-    std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity() };
+    std::numeric_limits<float>::infinity(),
+    -std::numeric_limits<float>::infinity() };
   for (int i = 0; i < 400; ++i)
   {
     voxels.values[random() % voxels.values.size()] = bad[i % 3];
@@ -196,9 +203,8 @@ TEST(VisibleBricks, DistanceIsThatToTheNearestVisibleOne)
     // A brick without a finite voxel cannot be seen, whatever can_show would say.
     ranges.minimum[0] = std::numeric_limits<float>::infinity();
     ranges.maximum[0] = -std::numeric_limits<float>::infinity();
-    const VisibleBricks visible =
-      find_visible_bricks(ranges, [](float lower, float upper) { return lower > upper || upper > 0.5f; },
-        0.0f);
+    const VisibleBricks visible = find_visible_bricks(
+      ranges, [](float lower, float upper) { return lower > upper || upper > 0.5f; }, 0.0f);
     const int* n = ranges.dims;
     std::size_t seen = 0;
     const auto at = [&](int x, int y, int z) { return (z * n[1] + y) * n[0] + x; };
