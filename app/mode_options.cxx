@@ -219,13 +219,14 @@ vtkSmartPointer<vtkImageData> open_mask(
   }
   if (!input)
   {
-    throw Failure("--mask", "a sparse volume has no lattice of voxels to mask",
-      "leave it out, or mask a dense volume", BadCall);
+    throw Failure("--mask", input_name + " is sparse, and masks are for dense volumes",
+      "leave it out", BadCall);
   }
-  const Input file = open_input_with_bar(options.mask, std::string(), quiet);
+  const Input file = open_input_with_bar(options.mask, {}, quiet);
   if (!file.image)
   {
-    throw Failure(options.mask, "the mask is a sparse volume", "take a dense one");
+    throw Failure(options.mask, "a mask is a dense volume, not an OpenVDB file",
+      "name an image of the volume's voxels");
   }
   vtkDataArray* values = file.image->GetPointData()->GetScalars();
   int dims[3];
