@@ -303,6 +303,31 @@ TEST(Modes, ComponentsAddUp)
   }
 }
 
+// Where the value runs evenly, opacity times grey is integrated exactly: one step is enough.
+TEST(Modes, GreysOfARampNeedOneStep)
+{
+  const Voxels<std::uint8_t> voxels(8, 8, 31, [](int, int, int k) { return 3 * k; });
+  Scene scene;
+  Volume& volume = scene.volumes[0];
+  volume.grid = voxels.grid();
+  volume.data_from_index = placed(glm::dvec3(1.0, 1.0, 0.5), glm::dvec3(0.0));
+  volume.classification = classify(0.0, 90.0, [](double v) { return 0.8 * v / 90.0; },
+    [](double) { return glm::dvec3(1.0); }, 2);
+  volume.classification.unit_distance = 20.0;
+  volume.grey_range[1] = 90.0;
+  scene.camera = view_of(scene, glm::dvec3(0, 0, -1), true).camera(1.0);
+  scene.blend_mode = BlendMode::Additive; // 15 long: one step, or one and a half
+  EXPECT_NEAR(march(scene, 3, 3, 15.0).radiance[0][4], 0.8 / 3.0 * 15.0 / 20.0, 1e-6);
+  EXPECT_NEAR(march(scene, 3, 3, 10.0).radiance[0][4], 0.8 / 3.0 * 15.0 / 20.0, 1e-6);
+  scene.blend_mode = BlendMode::AverageIntensity;
+  EXPECT_NEAR(march(scene, 3, 3, 15.0).radiance[0][4], 0.8 / 3.0, 1e-6);
+  scene.average_range[0] = 36.0;
+  scene.average_range[1] = 63.0;
+  const double mean = 0.8 * (0.7 * 0.7 * 0.7 - 0.4 * 0.4 * 0.4) / 3.0 / 0.3;
+  EXPECT_NEAR(march(scene, 3, 3, 15.0).radiance[0][4], mean, 1e-5);
+  EXPECT_NEAR(march(scene, 3, 3, 4.0).radiance[0][4], mean, 1e-5);
+}
+
 // Composite by the kernel of mixtures: midpoints of steps, so to the square of the step.
 TEST(Mixtures, AgreeWithTheReference)
 {
