@@ -329,6 +329,7 @@ MarchStatistics Marcher::render(
   common.volumes = &volumes;
   common.rays = &rays;
   common.rule = follows_rule(scene, settings.rule) ? settings.rule : StepRule::Midpoint;
+  common.mixture = scene.mixture;
   common.step = step;
   common.jitter = settings.jitter && !by_cells;
   common.step_error = static_cast<float>(settings.step_error);
