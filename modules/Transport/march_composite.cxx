@@ -260,7 +260,8 @@ private:
   }
 
   /// Adds an estimate of how much the step's optical depth is off, as it dims the pixel: a bend of
-  /// what the rule takes to be straight, over 12 between ends and over 24 around a middle.
+  /// what the rule takes to be straight, over 12 between ends and over 24 around a middle; there twice
+  /// that, for the colour, which bends too.
   HWY_INLINE void estimate_error(Real value, Real depth, State& state, Gathered& gathered) const
   {
     Real off;
@@ -277,7 +278,7 @@ private:
     }
     else
     {
-      off = hn::Abs(depth - state.depth - state.depth + state.depth_before) * real(1.0f / 24.0f);
+      off = hn::Abs(depth - state.depth - state.depth + state.depth_before) * real(1.0f / 12.0f);
       state.depth_before = state.depth;
     }
     state.depth = depth;

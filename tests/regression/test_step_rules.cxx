@@ -119,6 +119,7 @@ TEST(Cells, LeapOverWhatIsEmpty)
     [](int i, int j, int k) { return i > 48 && j > 12 && k < 20 ? 1.0 + 0.1 * (i % 3) : 0.0; });
   Scene scene = scene_of(voxels, glm::dvec3(0.8, -0.2, 0.4));
   scene.volumes[0].meaning = ValueMeaning::Density;
+  scene.volumes[0].density.extinction = 0.05;
   EXPECT_LE(depth_error(march(scene, StepRule::Cells, 1.0), truth_of(scene)), 1e-5);
 }
 
@@ -189,7 +190,8 @@ TEST(Rules, ConvergeWithTheSquareOfTheStep)
   }
 }
 
-// The estimate is of the steps' order: not under the error for nearly all pixels, nor a hundred times it.
+// The estimate is of the steps' order: not under the error for 97 pixels of 100, nor a hundred times
+// it. (The spacing is ½, 1, 0.8: these are steps of half a voxel to two.)
 TEST(Rules, TellTheErrorOfEachPixel)
 {
   const Voxels<float> voxels = smooth_voxels();
@@ -200,7 +202,7 @@ TEST(Rules, TellTheErrorOfEachPixel)
   const Film truth = truth_of(scene);
   for (StepRule rule : { StepRule::Midpoint, StepRule::Integrated })
   {
-    for (double step : { 0.5, 1.0, 2.0 })
+    for (double step : { 0.25, 0.5, 1.0 })
     {
       const Film film = march(scene, rule, step);
       int under = 0;
@@ -219,7 +221,7 @@ TEST(Rules, TellTheErrorOfEachPixel)
         estimated += film.error[i];
         real += error;
       }
-      EXPECT_LE(under, size * size / 50) << step_rule_name(rule) << ' ' << step;
+      EXPECT_LE(under, size * size * 3 / 100) << step_rule_name(rule) << ' ' << step;
       EXPECT_GE(estimated, real) << step_rule_name(rule) << ' ' << step;
       EXPECT_LE(estimated, 100.0 * real) << step_rule_name(rule) << ' ' << step;
     }
