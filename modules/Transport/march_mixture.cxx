@@ -180,6 +180,7 @@ public:
         }
       }
       Real depth = zero;
+      Real squares = zero;
       Vec3<Real> light{ zero, zero, zero };
       for (int k = 0; k < count; ++k)
       {
@@ -193,7 +194,15 @@ public:
         const Real part =
           Volumes[k].depth(rays.lines[k], middle, (finish - begin) * rays.scale[k], inside, colour);
         depth = depth + part;
+        squares = hn::MulAdd(part, part, squares);
         light = light + colour * part;
+      }
+      if (Task.mixture == Mixture::Components)
+      {
+        // The mean of the components' depths, weighted with themselves; they send their light all
+        // the same.
+        const Mask some = depth > zero;
+        depth = hn::IfThenElseZero(some, squares / hn::IfThenElse(some, depth, one));
       }
       const Real off =
         hn::Abs(depth - depth_before - depth_before + depth_earlier) * real(1.0f / 24.0f);

@@ -59,6 +59,7 @@ struct MarchTask
   const std::vector<VolumeTask>* volumes = nullptr;
   const RayMaker* rays = nullptr;
   StepRule rule = StepRule::Midpoint;
+  Mixture mixture = Mixture::Sum; ///< of several volumes in Composite
   double step = 1.0; ///< in the data's units
   bool jitter = false;
   float step_error = 0.0f;            ///< part of Film::error

@@ -132,11 +132,12 @@ vtkSmartPointer<vtkImageData> two_balls(int type)
 
 TEST(Modes, IndependentComponents)
 {
-  for (int type : { VTK_UNSIGNED_CHAR, VTK_SHORT, VTK_FLOAT })
+  for (int type : { VTK_UNSIGNED_CHAR, VTK_SHORT, VTK_FLOAT, VTK_UNSIGNED_SHORT })
   {
-    Scene scene = of("independent");
+    const bool meet = type == VTK_UNSIGNED_SHORT;
+    Scene scene = of(meet ? "independent-meet" : "independent");
     scene.name += std::to_string(type);
-    scene.image = two_balls(type);
+    scene.image = two_balls(type, meet);
     scene.volume = [](vtkVolume* volume)
     {
       vtkNew<vtkPiecewiseFunction> opacities;
@@ -306,6 +307,7 @@ void compare_truth(Scene scene, Bounds cpu, Bounds gpu)
     EXPECT_LE(errors.p999, bounds.p999) << scene.name << ", " << mapper;
     pictures.push_back(picture);
   };
+  check("Brume", brume_picture(scene), { 0.005, 0.15 });
   if (cpu.p999 > 0.0)
   {
     check("CPU", fixed_point_picture(scene), cpu);
