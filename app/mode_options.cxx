@@ -217,7 +217,22 @@ vtkSmartPointer<vtkImageData> open_mask(
   {
     return nullptr;
   }
-  const Input file = open_input_with_bar(options.mask, quiet);
+  if (!input)
+  {
+    throw Failure("--mask", input_name + " is sparse, and masks are for dense volumes",
+      "leave it out", BadCall);
+  }
+  const Input file = open_input_with_bar(options.mask, {}, quiet);
+  if (!file.image || !input)
+  {
+    throw Failure(options.mask, "sparse volumes are neither masks nor masked",
+      "take dense ones: .nrrd, .nii, .mha, .vti");
+  }
+  if (!file.image)
+  {
+    throw Failure(options.mask, "a mask is a dense volume, not an OpenVDB file",
+      "name an image of the volume's voxels");
+  }
   vtkDataArray* values = file.image->GetPointData()->GetScalars();
   int dims[3];
   int wanted[3];

@@ -77,26 +77,33 @@ HWY_INLINE Curve cell_curve(const FieldView& view,
     begin[axis] = fraction(*ends[0][axis]);
     way[axis] = fraction(*ends[1][axis]) - begin[axis];
   }
-  const auto at = [&](Real t)
+  // Along x each row is linear in t, along y each face is quadratic, along z all is cubic.
+  Real p[4];
+  Real q[4];
+  for (int row = 0; row < 4; ++row)
   {
-    return factor * blend(rows,
-                      hn::MulAdd(way[0], t, begin[0]),
-                      hn::MulAdd(way[1], t, begin[1]),
-                      hn::MulAdd(way[2], t, begin[2]));
-  };
-  const Real v0 = at(hn::Zero(float_tag));
-  const Real v1 = at(real(1.0f / 3.0f));
-  const Real v2 = at(real(2.0f / 3.0f));
+    const Real difference = (rows[row].second - rows[row].first) * factor;
+    p[row] = hn::MulAdd(difference, begin[0], rows[row].first * factor);
+    q[row] = difference * way[0];
+  }
+  Real face[2][3];
+  for (int z = 0; z < 2; ++z)
+  {
+    const Real dp = p[2 * z + 1] - p[2 * z];
+    const Real dq = q[2 * z + 1] - q[2 * z];
+    face[z][0] = hn::MulAdd(begin[1], dp, p[2 * z]);
+    face[z][1] = hn::MulAdd(begin[1], dq, hn::MulAdd(way[1], dp, q[2 * z]));
+    face[z][2] = way[1] * dq;
+  }
+  const Real d0 = face[1][0] - face[0][0];
+  const Real d1 = face[1][1] - face[0][1];
+  const Real d2 = face[1][2] - face[0][2];
   Curve curve;
-  curve.last = at(real(1.0f));
-  // Newton's forward differences in 3 t.
-  const Real d1 = v1 - v0;
-  const Real d2 = (v2 - v1) - d1;
-  const Real d3 = ((curve.last - v2) - (v2 - v1)) - d2;
-  curve.a0 = v0;
-  curve.a1 = real(3.0f) * (d1 - real(0.5f) * d2) + d3;
-  curve.a2 = real(4.5f) * (d2 - d3);
-  curve.a3 = real(4.5f) * d3;
+  curve.a0 = hn::MulAdd(begin[2], d0, face[0][0]);
+  curve.a1 = hn::MulAdd(begin[2], d1, hn::MulAdd(way[2], d0, face[0][1]));
+  curve.a2 = hn::MulAdd(begin[2], d2, hn::MulAdd(way[2], d1, face[0][2]));
+  curve.a3 = way[2] * d2;
+  curve.last = curve.a0 + (curve.a1 + (curve.a2 + curve.a3));
   return curve;
 }
 

@@ -35,21 +35,40 @@ public:
     Least = fastest * real(static_cast<float>(longest) * 5e-7f);
   }
 
-  /// The end of the cell that a ray is in just behind `position`.
-  HWY_INLINE Real next(Real position) const
+  /// The ends of the cells that a ray passes from `position` on, up to `end`: ends[0] is the
+  /// position, ends[i + 1] the end of the cell that begins at ends[i].
+  HWY_INLINE void cells(Real position, Real end, int count, Real* ends) const
   {
     const Real probe = position + Least;
     const Vec3<Real> place = TheLine.at(probe);
-    Real way = real(1e30f);
-    if (Linear)
+    const Real* p[3] = { &place.x, &place.y, &place.z };
+    // Where the next border of each axis is, and how far it is from one to the next. Both kinds of
+    // border together are half a voxel apart.
+    const bool both = Linear && Labels;
+    const Real spacing = real(both ? 0.5f : 1.0f);
+    const Real offset = real(Linear ? 0.0f : 0.5f);
+    Real next[3];
+    Real apart[3];
+    for (int axis = 0; axis < 3; ++axis)
     {
-      way = to_border(place, 0.0f);
+      const Real scaled = (*p[axis] - offset) * (both ? real(2.0f) : real(1.0f));
+      const Real into = (scaled - hn::Floor(scaled)) * spacing;
+      const Mask up = Inverse[axis] > hn::Zero(float_tag);
+      const Real distance = select(up, spacing - into, hn::Neg(into));
+      next[axis] = hn::MulAdd(distance, Inverse[axis], probe);
+      apart[axis] = hn::Abs(Inverse[axis]) * spacing;
     }
-    if (!Linear || Labels)
+    ends[0] = position;
+    for (int i = 0; i < count; ++i)
     {
-      way = hn::Min(way, to_border(place, 0.5f));
+      const Real border = hn::Min(next[0], hn::Min(next[1], next[2]));
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const Mask here = next[axis] <= border + Least;
+        next[axis] = next[axis] + hn::IfThenElseZero(here, apart[axis]);
+      }
+      ends[i + 1] = max(hn::Min(border, end), ends[i]);
     }
-    return probe + max(way, hn::Zero(float_tag));
   }
 
   /// The number of the brick that a ray is in just behind `position`, and where it leaves it.
@@ -85,21 +104,6 @@ private:
     // An axis along which the ray stands still never ends its way.
     const Mask still = hn::Abs(delta) < real(1e-30f);
     return hn::IfThenElse(still, real(1e30f), real(1.0f) / delta);
-  }
-
-  HWY_INLINE Real to_border(const Vec3<Real>& place, float offset) const
-  {
-    const Real* p[3] = { &place.x, &place.y, &place.z };
-    Real way = real(1e30f);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const Real shifted = *p[axis] - real(offset);
-      const Real into = shifted - hn::Floor(shifted);
-      const Mask up = Inverse[axis] > hn::Zero(float_tag);
-      const Real distance = select(up, real(1.0f) - into, hn::Neg(into));
-      way = hn::Min(way, distance * Inverse[axis]);
-    }
-    return way;
   }
 
   const Line& TheLine;

@@ -27,11 +27,11 @@ struct Line
   HWY_INLINE Vec3<Real> at(Real position) const { return begin + delta * position; }
 };
 
-/// A cubic over t in [0, 1], from its values at 0, 1/3, 2/3 and 1.
+/// A cubic over t in [0, 1].
 struct Curve
 {
   Real a0, a1, a2, a3; ///< a0 + a1 t + a2 t² + a3 t³
-  Real last;           ///< at 1, without rounding
+  Real last;           ///< at 1
 
   HWY_INLINE Real at(Real t) const
   {

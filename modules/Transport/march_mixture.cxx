@@ -56,6 +56,14 @@ public:
     Vec3<Real> gradient{ zero, zero, zero };
     Classified matter;
     Lookup::Place place;
+    Int first = hn::Zero(int_tag);
+    Mask shown = active;
+    if (Volume.masked)
+    {
+      first = first_node(line, position);
+      shown = hn::And(shown, hn::RebindMask(float_tag, first > integer(-1)));
+      first = hn::Max(first, hn::Zero(int_tag));
+    }
     if (Volume.table->columns > 0)
     {
       Functions.gradient(Volume.field, line.at(position), gradient);
@@ -63,17 +71,10 @@ public:
     }
     else
     {
-      Int first = hn::Zero(int_tag);
-      Mask shown = active;
-      if (Volume.masked)
-      {
-        first = first_node(line, position);
-        shown = hn::And(shown, hn::RebindMask(float_tag, first > integer(-1)));
-        first = hn::Max(first, hn::Zero(int_tag));
-      }
       place = table.locate(table.position(value), first);
-      matter.extinction = hn::IfThenElseZero(shown, table.extinction(place));
+      matter.extinction = table.extinction(place);
     }
+    matter.extinction = hn::IfThenElseZero(shown, matter.extinction);
     Real depth = matter.extinction * scale;
     if (hn::AllFalse(float_tag, depth > zero))
     {
@@ -199,17 +200,16 @@ public:
       }
       if (Task.mixture == Mixture::Components)
       {
-        // The mean of the components' depths, weighted with themselves; they send their light all
-        // the same.
-        const Mask some = depth > zero;
-        depth = hn::IfThenElseZero(some, squares / hn::IfThenElse(some, depth, one));
+        const Mask some = depth > real(1e-18f); // squares of less are nothing
+        depth = select(some, squares / hn::IfThenElse(some, depth, one), depth);
       }
       const Real off =
         hn::Abs(depth - depth_before - depth_before + depth_earlier) * real(1.0f / 24.0f);
       gathered.error = hn::MulAdd(gathered.transmittance, hn::Min(off, one), gathered.error);
       depth_earlier = depth_before;
       depth_before = depth;
-      // The source is the volumes' own, each by its share of the extinction.
+      // The source is the volumes' own, each by its share of the extinction (or, of components, by
+      // more than that).
       const Mask some = depth > zero;
       if (!hn::AllFalse(float_tag, some))
       {

@@ -120,11 +120,10 @@ public:
         }
       }
       Real ends[cells_at_once + 1];
-      ends[0] = hn::Min(position, end);
+      steps.cells(hn::Min(position, end), end, cells_at_once, ends);
       for (int i = 0; i < cells_at_once; ++i)
       {
         samples += hn::CountTrue(float_tag, ends[i] < end);
-        ends[i + 1] = max(hn::Min(steps.next(ends[i]), end), ends[i]);
       }
       Curve curves[cells_at_once];
       Reader.functions().curves(Volume.field, line, ends, cells_at_once, curves);

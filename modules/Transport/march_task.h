@@ -45,6 +45,7 @@ struct VolumeTask
   int brick_dims[3] = { 0, 0, 0 };
   int brick_shift = 3; ///< log2 of their edge
   float top = 0.0f;
+  float rounding = 0.0f; ///< more than two ways to interpolate one value differ by
   ///@}
   float black = 0.0f;  ///< greys: the value that is black
   float whiten = 0.0f; ///< greys: what a value above it is times to be a grey
@@ -59,7 +60,7 @@ struct MarchTask
   const std::vector<VolumeTask>* volumes = nullptr;
   const RayMaker* rays = nullptr;
   StepRule rule = StepRule::Midpoint;
-  Mixture mixture = Mixture::Sum; ///< of several volumes in Composite
+  Mixture mixture = Mixture::Sum;
   double step = 1.0; ///< in the data's units
   bool jitter = false;
   float step_error = 0.0f;            ///< part of Film::error

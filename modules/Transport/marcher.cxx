@@ -336,10 +336,6 @@ MarchStatistics Marcher::render(
   common.film = &film;
   // What is behind can change a pixel by no more than the transmittance left times the brightest of
   // the matter there and of a white background.
-  if (scene.mixture == Mixture::Components)
-  {
-    brightest *= scene.volumes.size(); // they send the light of all, and absorb as one
-  }
   common.brightest = static_cast<float>(brightest);
   common.leave_below = static_cast<float>(settings.leave_error / brightest);
   for (int i = 0; i < 2; ++i)

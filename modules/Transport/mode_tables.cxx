@@ -3,6 +3,7 @@
 #include <glm/matrix.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace brume
 {
@@ -53,6 +54,7 @@ void ModeTables::find_bounds(const BrickRanges& ranges, float empty_value)
   this->Sign = largest ? 1.0f : -1.0f;
   this->Extreme = !any ? empty_value : largest ? ranges.lower : ranges.upper;
   this->Top = this->Sign * (!any ? empty_value : largest ? ranges.upper : ranges.lower);
+  this->Rounding = 1e-6f * std::max(std::abs(ranges.lower), std::abs(ranges.upper));
   std::copy(ranges.dims, ranges.dims + 3, this->BrickDims);
   this->BrickShift = ranges.shift;
   this->Bounds.resize(ranges.size());
@@ -131,6 +133,7 @@ void ModeTables::fill(const Scene& scene, const Volume& volume, VolumeTask& task
 {
   task.sign = this->Sign;
   task.top = this->Top;
+  task.rounding = this->Rounding;
   task.bounds = this->Bounds.data();
   std::copy(this->BrickDims, this->BrickDims + 3, task.brick_dims);
   task.brick_shift = this->BrickShift;

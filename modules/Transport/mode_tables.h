@@ -45,6 +45,7 @@ private:
   float Sign = 1.0f;
   float Extreme = 0.0f; ///< in place of non-finite voxels, for the largest and smallest value
   float Top = 0.0f;
+  float Rounding = 0.0f;
   int BrickDims[3] = { 0, 0, 0 };
   int BrickShift = 3;
   std::vector<float> Bounds;

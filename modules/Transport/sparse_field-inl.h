@@ -28,11 +28,10 @@ struct Half
 HWY_INLINE Real real_from_half(Int bits)
 {
   // The exponent moves by 127 − 15, by a multiplication that also brings denormals into place.
-  const Real shifted =
-    hn::BitCast(float_tag, hn::ShiftLeft<13>(hn::And(bits, integer(0x7fff))));
+  const Real shifted = hn::BitCast(float_tag, hn::ShiftLeft<13>(hn::And(bits, integer(0x7fff))));
   const Int magnitude = hn::BitCast(int_tag, shifted * real(0x1p112f));
-  const Int special = hn::IfThenElseZero(
-    hn::And(bits, integer(0x7c00)) == integer(0x7c00), integer(0x7f800000));
+  const Int special =
+    hn::IfThenElseZero(hn::And(bits, integer(0x7c00)) == integer(0x7c00), integer(0x7f800000));
   const Int sign = hn::ShiftLeft<16>(hn::And(bits, integer(0x8000)));
   return hn::BitCast(float_tag, hn::Or(hn::Or(magnitude, special), sign));
 }
@@ -65,23 +64,7 @@ public:
   {
     const SparseField field(view);
     const Cell cell = locate_cell(view, place);
-    Taps taps;
-    Mask inside = hn::FirstN(float_tag, lane_count);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      for (int tap = 0; tap < 4; ++tap)
-      {
-        const Int at = hn::Min(
-          hn::Max(cell.index[axis] + integer(tap - 1), integer(0)), integer(view.last[axis]));
-        taps.axis[axis][tap] = field.terms(axis, at);
-      }
-      const Int local = hn::And(cell.index[axis], integer(7));
-      inside = hn::And(inside,
-        hn::RebindMask(float_tag, hn::And(local > integer(0), local < integer(6))));
-    }
-    taps.slot = field.slot(taps.axis[0][1], taps.axis[1][1], taps.axis[2][1]);
-    gradient = hn::AllTrue(float_tag, inside) ? field.template slope<true>(cell, taps)
-                                              : field.template slope<false>(cell, taps);
+    gradient = field.slope(cell, field.find_taps(cell));
   }
 
   /// The voxels of a cell.
@@ -127,8 +110,8 @@ public:
     }
     for (int row = 0; row < 4; ++row)
     {
-      const Int yz = (row & 1 ? high[1].voxel : low[1].voxel) +
-        (row >> 1 ? high[2].voxel : low[2].voxel);
+      const Int yz =
+        (row & 1 ? high[1].voxel : low[1].voxel) + (row >> 1 ? high[2].voxel : low[2].voxel);
       if (sizeof(T) <= 2 && !crosses[0])
       {
         const Int bits = word(first[row], low[0].voxel + yz);
@@ -180,8 +163,7 @@ private:
     Int page = x.page + y.page + z.page;
     if (HWY_UNLIKELY(Table.directory_shift > 0))
     {
-      page = page +
-        hn::GatherIndex(int_tag, Table.directory.data(), x.cube + y.cube + z.cube);
+      page = page + hn::GatherIndex(int_tag, Table.directory.data(), x.cube + y.cube + z.cube);
     }
     const Int base = hn::GatherIndex(int_tag, Table.pages.data(), page);
     return hn::GatherIndex(int_tag, Table.slots.data(), base + x.slot + y.slot + z.slot);
@@ -195,44 +177,99 @@ private:
   }
 
   /// Of the four rows of a cell, given the first's slot.
-  HWY_INLINE void find_slots(const Terms& x, const Terms (&low)[3], const Terms (&high)[3],
-    const bool (&crosses)[3], Int (&slots)[4]) const
+  HWY_INLINE void find_slots(const Terms& x,
+    const Terms (&low)[3],
+    const Terms (&high)[3],
+    const bool (&crosses)[3],
+    Int (&slots)[4]) const
   {
     slots[1] = crosses[1] ? slot(x, high[1], low[2]) : slots[0];
     slots[2] = crosses[2] ? slot(x, low[1], high[2]) : slots[0];
     slots[3] = crosses[1] && crosses[2] ? slot(x, high[1], high[2])
-      : crosses[1]                      ? slots[1]
+               : crosses[1]             ? slots[1]
                                         : slots[2];
   }
 
-  /// The voxels −1, 0, 1, 2 of a cell along each axis.
+  /// The voxels −1, 0, 1, 2 of a cell along each axis. They lie in at most two bricks: that of the
+  /// first one, and that of the last.
   struct Taps
   {
-    Terms axis[3][4];
-    Int slot; ///< of voxel (0, 0, 0)
+    Int voxel[3][4];                ///< Terms::voxel of each
+    hn::Mask<IntTag> in_last[3][4]; ///< lanes in which it lies in the last one's brick
+    bool crosses[3];                ///< whether any lane has two bricks along the axis
+    /// By brick: bit 0 for the last one's along x, bit 1 along y, bit 2 along z. 0 where that axis
+    /// is not crossed.
+    Int slots[8];
   };
 
-  /// One of them. OneBrick: all are in the brick of voxel (0, 0, 0).
-  template <bool OneBrick>
-  HWY_INLINE Real tap(const Taps& taps, int x, int y, int z) const
+  HWY_INLINE Taps find_taps(const Cell& cell) const
   {
-    const Terms& tx = taps.axis[0][x];
-    const Terms& ty = taps.axis[1][y];
-    const Terms& tz = taps.axis[2][z];
-    const Int at = OneBrick ? taps.slot : slot(tx, ty, tz);
-    return unpack<0>(word(at, tx.voxel + ty.voxel + tz.voxel));
+    Taps taps;
+    Terms ends[3][2];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      Int at[4];
+      for (int tap = 0; tap < 4; ++tap)
+      {
+        at[tap] = hn::Min(
+          hn::Max(cell.index[axis] + integer(tap - 1), integer(0)), integer(View.last[axis]));
+      }
+      ends[axis][0] = terms(axis, at[0]);
+      ends[axis][1] = terms(axis, at[3]);
+      const Int last = hn::ShiftRight<SparseVoxels::brick_shift>(at[3]);
+      for (int tap = 0; tap < 4; ++tap)
+      {
+        taps.in_last[axis][tap] = hn::ShiftRight<SparseVoxels::brick_shift>(at[tap]) == last;
+        taps.voxel[axis][tap] =
+          hn::ShiftLeftSame(hn::And(at[tap], integer(SparseVoxels::brick_edge - 1)),
+            axis * SparseVoxels::brick_shift);
+      }
+      taps.crosses[axis] = !hn::AllTrue(int_tag, taps.in_last[axis][0]);
+    }
+    for (int brick = 0; brick < 8; ++brick)
+    {
+      const bool asked = (taps.crosses[0] || !(brick & 1)) && (taps.crosses[1] || !(brick & 2)) &&
+                         (taps.crosses[2] || !(brick & 4));
+      taps.slots[brick] = asked
+                            ? slot(ends[0][brick & 1], ends[1][brick >> 1 & 1], ends[2][brick >> 2])
+                            : hn::Zero(int_tag);
+    }
+    return taps;
   }
 
-  template <bool OneBrick>
+  /// The slot of a tap, of the two by which it may differ along an axis that is crossed.
+  static HWY_INLINE Int either(const Taps& taps, int axis, int tap, Int first, Int last)
+  {
+    return taps.crosses[axis] ? hn::IfThenElse(taps.in_last[axis][tap], last, first) : first;
+  }
+
+  HWY_INLINE Real tap(const Taps& taps, int x, int y, int z) const
+  {
+    const Int* s = taps.slots;
+    Int at = either(taps, 0, x, s[0], s[1]);
+    if (taps.crosses[1])
+    {
+      at = either(taps, 1, y, at, either(taps, 0, x, s[2], s[3]));
+    }
+    if (taps.crosses[2])
+    {
+      Int beyond = either(taps, 0, x, s[4], s[5]);
+      if (taps.crosses[1])
+      {
+        beyond = either(taps, 1, y, beyond, either(taps, 0, x, s[6], s[7]));
+      }
+      at = either(taps, 2, z, at, beyond);
+    }
+    return unpack<0>(word(at, taps.voxel[0][x] + taps.voxel[1][y] + taps.voxel[2][z]));
+  }
+
   HWY_INLINE Real edge(const Cell& cell, const Taps& taps, int y, int z) const
   {
-    return lerp(
-      tap<OneBrick>(taps, 1, y, z), tap<OneBrick>(taps, 2, y, z), cell.fraction[0]);
+    return lerp(tap(taps, 1, y, z), tap(taps, 2, y, z), cell.fraction[0]);
   }
 
   /// Trilinear interpolation commutes with differences: this is the interpolated gradient.
-  template <bool OneBrick>
-  HWY_NOINLINE Vec3<Real> slope(const Cell& cell, const Taps& taps) const
+  HWY_INLINE Vec3<Real> slope(const Cell& cell, const Taps& taps) const
   {
     Real middle[2][2];
     Real slope_x[2];
@@ -241,10 +278,10 @@ private:
       Real slope[2];
       for (int y = 0; y < 2; ++y)
       {
-        const Real first = tap<OneBrick>(taps, 1, 1 + y, 1 + z);
-        const Real second = tap<OneBrick>(taps, 2, 1 + y, 1 + z);
-        const Real before = tap<OneBrick>(taps, 0, 1 + y, 1 + z);
-        const Real after = tap<OneBrick>(taps, 3, 1 + y, 1 + z);
+        const Real first = tap(taps, 1, 1 + y, 1 + z);
+        const Real second = tap(taps, 2, 1 + y, 1 + z);
+        const Real before = tap(taps, 0, 1 + y, 1 + z);
+        const Real after = tap(taps, 3, 1 + y, 1 + z);
         middle[z][y] = lerp(first, second, cell.fraction[0]);
         slope[y] = lerp(second - before, after - first, cell.fraction[0]);
       }
@@ -254,14 +291,12 @@ private:
     Real slope_z[2];
     for (int side = 0; side < 2; ++side)
     {
-      const Real y_before = edge<OneBrick>(cell, taps, 0, 1 + side);
-      const Real y_after = edge<OneBrick>(cell, taps, 3, 1 + side);
-      slope_y[side] =
-        lerp(middle[side][1] - y_before, y_after - middle[side][0], cell.fraction[1]);
-      const Real z_before = edge<OneBrick>(cell, taps, 1 + side, 0);
-      const Real z_after = edge<OneBrick>(cell, taps, 1 + side, 3);
-      slope_z[side] =
-        lerp(middle[1][side] - z_before, z_after - middle[0][side], cell.fraction[2]);
+      const Real y_before = edge(cell, taps, 0, 1 + side);
+      const Real y_after = edge(cell, taps, 3, 1 + side);
+      slope_y[side] = lerp(middle[side][1] - y_before, y_after - middle[side][0], cell.fraction[1]);
+      const Real z_before = edge(cell, taps, 1 + side, 0);
+      const Real z_after = edge(cell, taps, 1 + side, 3);
+      slope_z[side] = lerp(middle[1][side] - z_before, z_after - middle[0][side], cell.fraction[2]);
     }
     const Real half = real(0.5f);
     return { lerp(slope_x[0], slope_x[1], cell.fraction[2]) * half,

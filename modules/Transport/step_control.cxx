@@ -157,7 +157,6 @@ StepChoice choose_step(Marcher& marcher, const Scene& scene, double tolerance, i
     const double room = tolerance / std::max(choice.estimated_error, 0.125 * tolerance);
     const double factor = std::min(std::cbrt(room), 1.999);
     step *= factor;
-    // The last bit of a cube root must not turn a tolerance that is met into one that is not.
     choice.estimated_error =
       std::min(choice.estimated_error * factor * factor * factor, tolerance);
   }

@@ -303,6 +303,85 @@ TEST(Modes, ComponentsAddUp)
   }
 }
 
+// Where the value runs evenly, opacity times grey is integrated exactly: one step is enough.
+TEST(Modes, GreysOfARampNeedOneStep)
+{
+  const Voxels<std::uint8_t> voxels(8, 8, 31, [](int, int, int k) { return 3 * k; });
+  Scene scene;
+  Volume& volume = scene.volumes[0];
+  volume.grid = voxels.grid();
+  volume.data_from_index = placed(glm::dvec3(1.0, 1.0, 0.5), glm::dvec3(0.0));
+  volume.classification = classify(0.0, 90.0, [](double v) { return 0.8 * v / 90.0; },
+    [](double) { return glm::dvec3(1.0); }, 2);
+  volume.classification.unit_distance = 20.0;
+  volume.grey_range[1] = 90.0;
+  scene.camera = view_of(scene, glm::dvec3(0, 0, -1), true).camera(1.0);
+  scene.blend_mode = BlendMode::Additive; // 15 long: one step, or one and a half
+  EXPECT_NEAR(march(scene, 3, 3, 15.0).radiance[0][4], 0.8 / 3.0 * 15.0 / 20.0, 1e-6);
+  EXPECT_NEAR(march(scene, 3, 3, 10.0).radiance[0][4], 0.8 / 3.0 * 15.0 / 20.0, 1e-6);
+  scene.blend_mode = BlendMode::AverageIntensity;
+  EXPECT_NEAR(march(scene, 3, 3, 15.0).radiance[0][4], 0.8 / 3.0, 1e-6);
+  scene.average_range[0] = 36.0;
+  scene.average_range[1] = 63.0;
+  const double mean = 0.8 * (0.7 * 0.7 * 0.7 - 0.4 * 0.4 * 0.4) / 3.0 / 0.3;
+  EXPECT_NEAR(march(scene, 3, 3, 15.0).radiance[0][4], mean, 1e-5);
+  EXPECT_NEAR(march(scene, 3, 3, 4.0).radiance[0][4], mean, 1e-5);
+}
+
+// Composite by the kernel of mixtures: midpoints of steps, so to the square of the step.
+TEST(Mixtures, AgreeWithTheReference)
+{
+  const auto expect = [](const Scene& scene, const char* what, double bound)
+  {
+    const double off =
+      difference(march(scene, width, height, 0.02), reference(scene, width, height, 1e-5));
+    EXPECT_LT(off, bound) << what;
+  };
+  Scenery<std::uint16_t> cropped(BlendMode::Composite);
+  cropped.volume().cropping.enabled = true;
+  cropped.volume().cropping.regions = 0x5ad4e93;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    cropped.volume().cropping.lower[axis] = 8.3 + axis;
+    cropped.volume().cropping.upper[axis] = 20.6 - axis;
+  }
+  expect(cropped.scene, "cropped", 1e-4);
+
+  Scenery<std::uint16_t> masked(BlendMode::Composite);
+  masked.add_mask();
+  // The label's extinction is up to 2.3, and a step across its edge is off by half of itself.
+  expect(masked.scene, "masked", 2.3 * 0.01);
+
+  Scenery<float> both(BlendMode::Composite);
+  both.add_mask();
+  both.volume().label_classifications.clear();
+  both.volume().mask.classification_of_label[2] = 0;
+  Classification& c = both.volume().classification;
+  c.opacity.clear();
+  c.rgb.clear();
+  c.value_gradient_width = 2;
+  c.gradient_upper = 0.4;
+  c.value_gradient = { 0.2, 0.3, 0.4, 0.1, 0.9, 0.3, 0.4, 0.6, //
+    0.2, 0.8, 0.4, 0.3, 0.9, 0.3, 0.9, 0.8 };
+  expect(both.scene, "value and gradient, masked", 5e-3);
+
+  for (Mixture mixture : { Mixture::Sum, Mixture::Components })
+  {
+    Scenery<std::uint16_t> two(BlendMode::Composite);
+    two.scene.mixture = mixture;
+    two.scene.volumes.push_back(two.scene.volumes[0]);
+    two.scene.volumes[0].weight = 0.4;
+    two.scene.volumes[1].weight = 1.3;
+    two.scene.volumes[1].classification = classify(0.0, 65535.0,
+      [](double v) { return 1.0 - 0.5 * v / 65535.0; },
+      [](double) { return glm::dvec3(0.2, 0.7, 0.9); }, 257);
+    two.scene.volumes[1].classification.unit_distance = 30.0;
+    two.scene.volumes[1].world_from_data =
+      glm::translate(glm::dmat4(1.0), glm::dvec3(9.0, 3.0, -4.0));
+    expect(two.scene, mixture == Mixture::Sum ? "sum" : "components", 3e-4);
+  }
+}
+
 TEST(Modes, HaveTheSameBitsWithAnyNumberOfThreads)
 {
   for (BlendMode mode : all_modes)

@@ -45,8 +45,8 @@ struct Twins
     const auto value = [with_nan, this](int i, int j, int k)
     {
       return with_nan && i % 7 == 3 && j % 5 == 0 && k % 6 == 0 && balls(i, j, k) > 0.0
-        ? std::numeric_limits<double>::quiet_NaN()
-        : most * balls(i, j, k);
+               ? std::numeric_limits<double>::quiet_NaN()
+               : most * balls(i, j, k);
     };
     topology = sparse_grids::topology_of({ { -24, -24, -48 } }, { { 80, 56, 32 } }, 0.0, value);
     topology.tiles = { { { { 3, -2, 0 } }, { { 4, 1, 1 } }, 0.75 * most } };
@@ -60,8 +60,7 @@ struct Twins
       }
       return in;
     };
-    topology.bricks.erase(
-      std::remove_if(topology.bricks.begin(), topology.bricks.end(), overlaps),
+    topology.bricks.erase(std::remove_if(topology.bricks.begin(), topology.bricks.end(), overlaps),
       topology.bricks.end());
     sparse = std::make_unique<SparseVoxels>(
       type, 0.0, topology, sparse_grids::filler(topology, type, value));
@@ -73,10 +72,13 @@ struct Twins
   {
     Scene scene;
     scene.volumes[0].grid = dense ? sparse_grids::dense_grid(*sparse, copy) : sparse->grid();
-    scene.volumes[0].data_from_index = placed(glm::dvec3(0.8, 1.0, 1.3), glm::dvec3(4.0, -9.0, 100.0));
-    scene.volumes[0].world_from_data = glm::rotate(glm::dmat4(1.0), 0.4, glm::dvec3(1.0, 2.0, -0.5));
+    scene.volumes[0].data_from_index =
+      placed(glm::dvec3(0.8, 1.0, 1.3), glm::dvec3(4.0, -9.0, 100.0));
+    scene.volumes[0].world_from_data =
+      glm::rotate(glm::dmat4(1.0), 0.4, glm::dvec3(1.0, 2.0, -0.5));
     scene.volumes[0].classification = classify(
-      0.0, most,
+      0.0,
+      most,
       [this](double v)
       {
         const double u = v / most;
@@ -89,8 +91,8 @@ struct Twins
       },
       4097);
     scene.volumes[0].classification.unit_distance = 2.0;
-    scene.camera = view_of(scene, glm::dvec3(-0.5, 0.3, -0.9), !perspective)
-                     .camera(double(width) / height);
+    scene.camera =
+      view_of(scene, glm::dvec3(-0.5, 0.3, -0.9), !perspective).camera(double(width) / height);
     return scene;
   }
 };
@@ -113,7 +115,9 @@ void with_gradients(Scene& scene)
 }
 
 /// Films of both, by any rule.
-void expect_alike(const Twins& twins, void (*change)(Scene&), bool linear = true,
+void expect_alike(const Twins& twins,
+  void (*change)(Scene&),
+  bool linear = true,
   StepRule rule = StepRule::Midpoint)
 {
   for (bool perspective : { true, false })
@@ -215,9 +219,14 @@ std::string type_name(const ::testing::TestParamInfo<VoxelType>& info)
 
 }
 
-INSTANTIATE_TEST_SUITE_P(Types, SparsePicture,
-  ::testing::Values(VoxelType::Float32, VoxelType::Float16, VoxelType::UInt8, VoxelType::Int8,
-    VoxelType::UInt16, VoxelType::Int16),
+INSTANTIATE_TEST_SUITE_P(Types,
+  SparsePicture,
+  ::testing::Values(VoxelType::Float32,
+    VoxelType::Float16,
+    VoxelType::UInt8,
+    VoxelType::Int8,
+    VoxelType::UInt16,
+    VoxelType::Int16),
   type_name);
 
 TEST(SparseReference, IsThatOfTheDenseGrid)
@@ -244,8 +253,10 @@ TEST(SparseReference, IsThatOfTheDenseGrid)
 TEST(SparsePictures, AreTheSameInAWideBox)
 {
   const Twins twins(VoxelType::Float32);
-  for (const BrickPlace& far : { BrickPlace{ { 3000, 1, 2 } }, BrickPlace{ { 2500, 2500, 2500 } },
-         BrickPlace{ { 12500, 12500, 12500 } }, BrickPlace{ { -12500, -9000, 12500 } } })
+  for (const BrickPlace& far : { BrickPlace{ { 3000, 1, 2 } },
+         BrickPlace{ { 2500, 2500, 2500 } },
+         BrickPlace{ { 12500, 12500, 12500 } },
+         BrickPlace{ { -12500, -9000, 12500 } } })
   {
     SparseTopology wide = twins.topology;
     wide.bricks.push_back(far);
@@ -266,8 +277,7 @@ TEST(SparsePictures, AreTheSameInAWideBox)
       {
         shift[a] = voxels.origin()[a] - twins.sparse->origin()[a];
       }
-      box.volumes[0].data_from_index =
-        glm::translate(near.volumes[0].data_from_index, shift);
+      box.volumes[0].data_from_index = glm::translate(near.volumes[0].data_from_index, shift);
       change(near);
       change(box);
       Film films[2] = { Film(width, height), Film(width, height) };
@@ -276,8 +286,7 @@ TEST(SparsePictures, AreTheSameInAWideBox)
         MarchSettings settings;
         settings.rule = StepRule::Cells; // exact for densities, wherever steps would begin
         settings.step = 0.6;
-        const MarchStatistics statistics =
-          Marcher().render(*scene, settings, films[scene == &box]);
+        const MarchStatistics statistics = Marcher().render(*scene, settings, films[scene == &box]);
         EXPECT_LE(statistics.bricks, 1u << 15);
       }
       // At 100 000 voxels single precision tells 1/128 of a voxel. Steps of classified values begin
@@ -297,12 +306,17 @@ TEST(SparsePictures, OfAPoolBeyondTheReachOfGathers)
       for (int i = 0; i < 130; ++i)
         topology.bricks.push_back({ { i, j, k } });
   const auto value = [](int i, int j, int k)
-  { return std::max(0.0, 1.0 - std::abs(i - 1020.0) / 16.0) * (1.0 + 0.01 * (j % 9) + 0.02 * (k % 7)); };
+  {
+    return std::max(0.0, 1.0 - std::abs(i - 1020.0) / 16.0) *
+           (1.0 + 0.01 * (j % 9) + 0.02 * (k % 7));
+  };
   const auto fill = sparse_grids::filler(topology, VoxelType::Float16, value);
   std::unique_ptr<SparseVoxels> voxels;
   try
   {
-    voxels = std::make_unique<SparseVoxels>(VoxelType::Float16, 0.0, topology,
+    voxels = std::make_unique<SparseVoxels>(VoxelType::Float16,
+      0.0,
+      topology,
       [&](std::size_t index, void* memory)
       {
         const BrickPlace& b = topology.bricks[index];
@@ -326,7 +340,9 @@ TEST(SparsePictures, OfAPoolBeyondTheReachOfGathers)
       corner.bricks.push_back(b);
     }
   }
-  const SparseVoxels small(VoxelType::Float16, 0.0, corner,
+  const SparseVoxels small(VoxelType::Float16,
+    0.0,
+    corner,
     [&](std::size_t index, void* memory)
     {
       const BrickPlace& b = corner.bricks[index];

@@ -36,9 +36,12 @@ struct Pair
 
   Pair()
   {
-    const std::shared_ptr<const brume::SparseVoxels> voxels = sparse_grids::make_sparse(
-      brume::VoxelType::Float32, { { -8, -8, -8 } }, { { edge + 8, edge + 8, edge + 8 } }, 0.0,
-      value_at);
+    const std::shared_ptr<const brume::SparseVoxels> voxels =
+      sparse_grids::make_sparse(brume::VoxelType::Float32,
+        { { -8, -8, -8 } },
+        { { edge + 8, edge + 8, edge + 8 } },
+        0.0,
+        value_at);
     const double c = std::cos(0.5), s = std::sin(0.5);
     const double direction[9] = { c, -s, 0, s, c, 0, 0, 0, 1 };
     const double spacing[3] = { 0.5, 0.75, 1.25 };
@@ -58,8 +61,12 @@ struct Pair
     const auto& first = voxels->first();
     const auto& last = voxels->dims();
     const auto& o = voxels->origin();
-    this->image->SetExtent(o[0] + first[0], o[0] + last[0] - 1, o[1] + first[1],
-      o[1] + last[1] - 1, o[2] + first[2], o[2] + last[2] - 1);
+    this->image->SetExtent(o[0] + first[0],
+      o[0] + last[0] - 1,
+      o[1] + first[1],
+      o[1] + last[1] - 1,
+      o[2] + first[2],
+      o[2] + last[2] - 1);
     this->image->SetSpacing(spacing);
     this->image->SetOrigin(origin);
     this->image->SetDirectionMatrix(direction);
@@ -72,8 +79,11 @@ struct Pair
   }
 };
 
-brume::Film draw(vtkDataObject* input, bool shade, double extinction,
-  vtkBrumeRayMarchMapper* mapper, double bounds[6])
+brume::Film draw(vtkDataObject* input,
+  bool shade,
+  double extinction,
+  vtkBrumeRayMarchMapper* mapper,
+  double bounds[6])
 {
   mapper->SetInputDataObject(input);
   mapper->SetExtinction(extinction);
@@ -83,8 +93,9 @@ brume::Film draw(vtkDataObject* input, bool shade, double extinction,
   volume->GetProperty()->SetShade(shade);
   volume->SetMapper(mapper);
   std::copy_n(volume->GetBounds(), 6, bounds);
-  const double centre[3] = { 0.5 * (bounds[0] + bounds[1]), 0.5 * (bounds[2] + bounds[3]),
-    0.5 * (bounds[4] + bounds[5]) };
+  const double centre[3] = {
+    0.5 * (bounds[0] + bounds[1]), 0.5 * (bounds[2] + bounds[3]), 0.5 * (bounds[4] + bounds[5])
+  };
   vtkNew<vtkCamera> camera;
   look_at(camera, centre, 120.0);
   vtkBrumeVolumeMapper::ResetClippingRange(volume, camera);
@@ -131,7 +142,8 @@ TEST(SparseMapper, FollowsItsInputsPipeline)
   pair.sparse->SetIndexToWorld(matrix);
   std::copy_n(mapper->GetBounds(), 6, after);
   EXPECT_NE(before[0], after[0]);
-  EXPECT_EQ(after[1], pair.sparse->GetVoxels()->origin()[0] + pair.sparse->GetVoxels()->dims()[0] - 1);
+  EXPECT_EQ(
+    after[1], pair.sparse->GetVoxels()->origin()[0] + pair.sparse->GetVoxels()->dims()[0] - 1);
 }
 
 TEST(SparseMapper, RefusesWhatItCannotDraw)
@@ -145,7 +157,8 @@ TEST(SparseMapper, RefusesWhatItCannotDraw)
     int errors = 0;
     vtkNew<vtkCallbackCommand> ear;
     ear->SetClientData(&errors);
-    ear->SetCallback([](vtkObject*, unsigned long, void* count, void*) { ++*static_cast<int*>(count); });
+    ear->SetCallback(
+      [](vtkObject*, unsigned long, void* count, void*) { ++*static_cast<int*>(count); });
     mapper->AddObserver(vtkCommand::ErrorEvent, ear);
     mapper->SetInputDataObject(masked ? pair.sparse.Get() : empty.Get());
     mapper->SetMaskInput(masked ? mask.Get() : nullptr);
