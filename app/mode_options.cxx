@@ -223,6 +223,11 @@ vtkSmartPointer<vtkImageData> open_mask(
       "leave it out", BadCall);
   }
   const Input file = open_input_with_bar(options.mask, {}, quiet);
+  if (!file.image || !input)
+  {
+    throw Failure(options.mask, "sparse volumes are neither masks nor masked",
+      "take dense ones: .nrrd, .nii, .mha, .vti");
+  }
   if (!file.image)
   {
     throw Failure(options.mask, "a mask is a dense volume, not an OpenVDB file",

@@ -176,7 +176,7 @@ TEST(Together, RefusesWhatIsNotDrawnAsOne)
 }
 
 // Components are mixed as VTK's mappers do: two equal ones are as opaque as one, and twice as bright.
-TEST(Together, DISABLED_ComponentsAreMixedAsVTKMixesThem)
+TEST(Together, ComponentsAreMixedAsVTKMixesThem)
 {
   const auto two = image(
     32,
