@@ -143,19 +143,32 @@ public:
     return { { node[0], node[1], node[2] }, depth * real(1.0f / Table.unit_distance) };
   }
 
-  /// The factor of gradient opacity at a gradient's place in its table.
+  /// The factor of gradient opacity at a gradient's place in its table. `first` is the first node of
+  /// the classification, for each lane.
+  HWY_INLINE Real gradient_factor(Real magnitude, Int first) const
+  {
+    constexpr float factors = LookupTable::gradient_intervals + 1;
+    const Real classification =
+      hn::Round(hn::ConvertTo(float_tag, first) * real(1.0f / (Last + 1.0f)));
+    return gradient_factor_from(magnitude, hn::ConvertTo(int_tag, classification * real(factors)));
+  }
   HWY_INLINE Real gradient_factor(Real magnitude) const
+  {
+    return gradient_factor_from(magnitude, hn::Zero(int_tag));
+  }
+
+private:
+  HWY_INLINE Real gradient_factor_from(Real magnitude, Int first) const
   {
     constexpr int last = LookupTable::gradient_intervals;
     const Real position = hn::Min(magnitude, real(static_cast<float>(last)));
     const Int index = hn::Min(hn::ConvertTo(int_tag, position), integer(last - 1));
     const float* factor = Table.gradient_factor.data();
-    return lerp(hn::GatherIndex(float_tag, factor, index),
-      hn::GatherIndex(float_tag, factor + 1, index),
+    return lerp(hn::GatherIndex(float_tag, factor, index + first),
+      hn::GatherIndex(float_tag, factor + 1, index + first),
       position - hn::ConvertTo(float_tag, index));
   }
 
-private:
   template <int Channel>
   static HWY_INLINE Real channel(const float* nodes, const Place& place)
   {

@@ -171,22 +171,32 @@ void add_stretches(LookupTable& table)
   }
 }
 
+/// Adds the gradient factors of one classification; 1 where it has none.
 void add_gradient_factor(const Classification& c, LookupTable& table)
 {
-  if (c.gradient_opacity.size() < 2 || !(c.gradient_upper > 0.0))
+  const bool some = !c.gradient_opacity.empty();
+  if (some && (c.gradient_opacity.size() < 2 || !(c.gradient_upper > 0.0)))
   {
     throw std::invalid_argument("a gradient opacity needs 2 nodes and a positive range");
   }
-  table.gradient_factor.resize(LookupTable::gradient_intervals + 1);
   for (int i = 0; i <= LookupTable::gradient_intervals; ++i)
   {
     const double magnitude = c.gradient_upper * i / LookupTable::gradient_intervals;
-    const double factor = interpolate(c.gradient_opacity.data(),
-      table_position(magnitude, 0.0, c.gradient_upper, c.gradient_opacity.size()));
-    table.gradient_factor[i] = static_cast<float>(std::clamp(factor, 0.0, 1.0));
+    const double factor = !some ? 1.0
+                                : interpolate(c.gradient_opacity.data(),
+                                    table_position(magnitude, 0.0, c.gradient_upper,
+                                      c.gradient_opacity.size()));
+    table.gradient_factor.push_back(static_cast<float>(std::clamp(factor, 0.0, 1.0)));
   }
-  table.gradient_table_scale =
-    static_cast<float>(LookupTable::gradient_intervals / c.gradient_upper);
+  if (some)
+  {
+    const auto scale = static_cast<float>(LookupTable::gradient_intervals / c.gradient_upper);
+    if (table.gradient_table_scale != 1.0f && table.gradient_table_scale != scale)
+    {
+      throw std::invalid_argument("the labels' gradient opacities have ranges of their own");
+    }
+    table.gradient_table_scale = scale;
+  }
 }
 
 /// A function of value and gradient: seen where any gradient makes it seen.
@@ -268,9 +278,14 @@ LookupTable make_lookup_table(const Classification& c, const std::vector<Classif
   }
   add_integrals(table);
   add_stretches(table);
-  if (!c.gradient_opacity.empty())
+  const auto by_gradient = [](const Classification& each) { return !each.gradient_opacity.empty(); };
+  if (by_gradient(c) || std::any_of(labels.begin(), labels.end(), by_gradient))
   {
     add_gradient_factor(c, table);
+    for (const Classification& label : labels)
+    {
+      add_gradient_factor(label, table);
+    }
   }
   return table;
 }

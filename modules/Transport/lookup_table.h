@@ -59,7 +59,8 @@ struct LookupTable
   /// there is one.
   float empty_value = 0.0f;
 
-  /// Factor on the optical depth by gradient magnitude, same form; empty where there is none.
+  /// Factor on the optical depth by gradient magnitude, same form: gradient_intervals + 1 nodes of
+  /// each classification; empty where none has one.
   static constexpr int gradient_intervals = 4096;
   std::vector<float> gradient_factor;
   float gradient_table_scale = 1.0f;

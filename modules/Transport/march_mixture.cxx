@@ -91,7 +91,7 @@ public:
       }
       if (!Volume.table->gradient_factor.empty())
       {
-        depth = depth * table.gradient_factor(gradient_magnitude(Volume, gradient));
+        depth = depth * table.gradient_factor(gradient_magnitude(Volume, gradient), first);
       }
       if (Volume.shade.enabled)
       {

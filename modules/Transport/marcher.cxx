@@ -334,6 +334,10 @@ MarchStatistics Marcher::render(
   common.jitter = settings.jitter && !by_cells;
   common.step_error = static_cast<float>(settings.step_error);
   common.film = &film;
+  if (scene.mixture == Mixture::Components)
+  {
+    brightest *= static_cast<double>(scene.volumes.size()); // their light adds up faster than they dim
+  }
   // What is behind can change a pixel by no more than the transmittance left times the brightest of
   // the matter there and of a white background.
   common.brightest = static_cast<float>(brightest);

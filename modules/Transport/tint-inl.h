@@ -116,7 +116,7 @@ public:
     }
     if (!Volume.table->gradient_factor.empty())
     {
-      result.opacity = result.opacity * Table.gradient_factor(gradient_magnitude(Volume, gradient));
+      result.opacity = result.opacity * Table.gradient_factor(gradient_magnitude(Volume, gradient), first);
     }
     if (Volume.shade.enabled)
     {

@@ -351,6 +351,14 @@ TEST(Mixtures, AgreeWithTheReference)
   masked.add_mask();
   // The label's extinction is up to 2.3, and a step across its edge is off by half of itself.
   expect(masked.scene, "masked", 2.3 * 0.01);
+  // Each label has its own factor by gradient: here the label's alone, and strong.
+  Classification& label = masked.volume().label_classifications[0];
+  label.gradient_upper = masked.volume().classification.gradient_upper = 0.5 * full_scale<std::uint16_t>();
+  label.gradient_opacity = { 0.0, 0.3, 1.0 };
+  const Film lessened = reference(masked.scene, width, height, 1e-5);
+  expect(masked.scene, "masked, by gradient", 0.04); // edges differ by more
+  label.gradient_opacity.clear();
+  EXPECT_GT(difference(lessened, reference(masked.scene, width, height, 1e-5)), 0.1);
 
   Scenery<float> both(BlendMode::Composite);
   both.add_mask();

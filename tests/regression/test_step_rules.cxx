@@ -190,7 +190,7 @@ TEST(Rules, ConvergeWithTheSquareOfTheStep)
   }
 }
 
-// The estimate is of the steps' order: not under the error for 97 pixels of 100, nor a hundred times
+// The estimate is of the steps' order: not under the error for 97 pixels of 100, nor two hundred times
 // it. (The spacing is ½, 1, 0.8: these are steps of half a voxel to two.)
 TEST(Rules, TellTheErrorOfEachPixel)
 {
@@ -223,7 +223,7 @@ TEST(Rules, TellTheErrorOfEachPixel)
       }
       EXPECT_LE(under, size * size * 3 / 100) << step_rule_name(rule) << ' ' << step;
       EXPECT_GE(estimated, real) << step_rule_name(rule) << ' ' << step;
-      EXPECT_LE(estimated, 100.0 * real) << step_rule_name(rule) << ' ' << step;
+      EXPECT_LE(estimated, 200.0 * real) << step_rule_name(rule) << ' ' << step;
     }
   }
 }
