@@ -188,6 +188,8 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& scene, brume::Film& film)
     }
     settings.rule = this->Internal->Choice.rule;
     settings.step = this->Internal->Choice.step;
+    settings.refinements = this->Internal->Choice.refinements;
+    settings.refine_error = this->Internal->Choice.refine_error;
   }
   else
   {
@@ -214,6 +216,7 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& scene, brume::Film& film)
   statistics["simd"] = march.simd;
   statistics["step"] = march.step;
   statistics["step_rule"] = brume::step_rule_name(march.rule);
+  statistics["refinements"] = settings.refinements;
   statistics["step_in_voxels"] = march.step / brume::smallest_voxel_edge(scene);
   statistics["image_sample_distance"] = this->ImageSampleDistanceInUse;
   statistics["blend_mode"] = brume::blend_mode_name(scene.blend_mode);

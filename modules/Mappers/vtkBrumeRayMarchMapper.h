@@ -40,9 +40,10 @@ public:
   /**
    * Whether the mapper looks after quality and speed. On, the default:
    *
-   * - The step is chosen by the tolerance: the longest of 2, 1, ½, … and 1/32 of the smallest voxel
-   *   edge with which the estimated error is within three quarters of Tolerance; the choice is made
-   *   from 256 rays of the first picture's camera and kept while data, property and tolerance stay.
+   * - Steps are chosen by the tolerance: the cheapest, of 4 to 1/32 of the smallest voxel edge, with
+   *   which the estimated error is within three quarters of Tolerance, shorter only in the pixels
+   *   that ask for it where these are few; the choice is made from 4096 rays of the first picture's
+   *   camera and kept while data, property and tolerance stay. Off: always the midpoint rule.
    * - The distance between rays is chosen by the time that VTK allocates to the volume, from
    *   vtkRenderWindow::SetDesiredUpdateRate: one ray a pixel where the last picture was fast
    * enough, fewer where it was not, within MinimumImageSampleDistance and

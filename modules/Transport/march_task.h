@@ -63,6 +63,8 @@ struct MarchTask
   Mixture mixture = Mixture::Sum;
   double step = 1.0; ///< in the data's units
   bool jitter = false;
+  int refinements = 0;       ///< how often the step of a packet may be halved
+  float refine_error = 0.0f; ///< where its estimated error is larger than this
   float step_error = 0.0f;            ///< part of Film::error
   float brightest = 1.0f;             ///< bound of the light that may come from behind
   float leave_below = 0.0f;           ///< a ray ends when its transmittance is below this

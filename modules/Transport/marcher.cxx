@@ -298,6 +298,7 @@ MarchStatistics Marcher::render(
     settings.threads > 0 ? settings.threads : tbb::info::default_concurrency();
   tbb::task_arena arena(threads);
   double step = settings.step;
+  double shortest = 0.0;
   const bool by_cells = surfaces || scene.blend_mode == BlendMode::MaximumIntensity ||
                         scene.blend_mode == BlendMode::MinimumIntensity;
   if (by_cells)
@@ -306,8 +307,9 @@ MarchStatistics Marcher::render(
   }
   for (const Volume& volume : scene.volumes)
   {
-    step = std::max(step, diagonal(volume) / double(1 << 16));
+    shortest = std::max(shortest, diagonal(volume) / double(1 << 16));
   }
+  step = std::max(step, shortest);
 
   const auto start_prepare = std::chrono::steady_clock::now();
   const Integrator integrator = find_integrator(scene);
@@ -332,6 +334,12 @@ MarchStatistics Marcher::render(
   common.mixture = scene.mixture;
   common.step = step;
   common.jitter = settings.jitter && !by_cells;
+  common.refinements = by_cells ? 0 : std::clamp(settings.refinements, 0, most_refinements);
+  while (common.refinements > 0 && step / (1 << common.refinements) < shortest)
+  {
+    --common.refinements;
+  }
+  common.refine_error = static_cast<float>(settings.refine_error);
   common.step_error = static_cast<float>(settings.step_error);
   common.film = &film;
   if (scene.mixture == Mixture::Components)

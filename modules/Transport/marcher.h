@@ -30,6 +30,8 @@ enum class StepRule
 /// "midpoint", "integrated" or "cells".
 const char* step_rule_name(StepRule rule);
 
+constexpr int most_refinements = 8;
+
 /// How a picture is to be made.
 struct MarchSettings
 {
@@ -43,6 +45,10 @@ struct MarchSettings
   double leave_error = 0.001;
   /// An error of the picture that the caller knows of; added to Film::error. ≥ 0.
   double step_error = 0.0;
+  /// Where the estimated error of a pixel is larger than `refine_error`, it and its neighbours are
+  /// marched again with half the step, up to `refinements` times; 0 to most_refinements.
+  int refinements = 0;
+  double refine_error = 0.0;
   /// Rays begin within their first step at a place that differs from pixel to pixel: long steps
   /// then show as grain rather than as bands. The same in every picture.
   bool jitter = false;

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 HWY_BEFORE_NAMESPACE();
 namespace brume
@@ -414,39 +415,86 @@ inline void store(const MarchTask& task,
   }
 }
 
-/// Marches all packets of the task's tile. An Integrator has march(rays, gathered), which returns
-/// the number of samples, and depth_scale().
+/// Marches one packet. Returns its samples and rays.
+template <class Integrator>
+MarchCount march_packet(
+  Integrator& integrator, PacketRays& packet, int x, int y, Gathered& gathered, Mask& met)
+{
+  MarchCount count;
+  Rays rays;
+  int hits = 0;
+  packet.begin(x, y);
+  while (packet.next(rays, hits))
+  {
+    if (hits == 0)
+    {
+      continue;
+    }
+    count.rays = std::max(count.rays, static_cast<std::uint64_t>(hits));
+    met = hn::Or(met, rays.end > hn::Zero(float_tag));
+    rays.end = hn::IfThenZeroElse(gathered.left, rays.end);
+    count.samples += integrator.march(rays, gathered);
+  }
+  return count;
+}
+
+/// What marches with one length of step.
+template <class Integrator>
+struct Level
+{
+  MarchTask task;
+  Integrator integrator;
+  PacketRays packet;
+
+  Level(const MarchTask& whole, double step)
+    : task(with_step(whole, step))
+    , integrator(task)
+    , packet(task)
+  {
+  }
+  static MarchTask with_step(MarchTask task, double step)
+  {
+    task.step = step;
+    return task;
+  }
+};
+
+/// Marches all packets of the task's tile; those whose error seems too large again with half the
+/// step. An Integrator has march(rays, gathered), which returns the number of samples, and
+/// depth_scale().
 template <class Integrator>
 MarchCount march_tile(const MarchTask& task)
 {
   MarchCount count;
-  Integrator integrator(task);
-  PacketRays packet(task);
+  std::unique_ptr<Level<Integrator>> levels[most_refinements + 1];
   for (int y = task.y0; y < task.y1; y += packet_height)
   {
     for (int x = task.x0; x < task.x1; x += packet_width)
     {
-      Gathered gathered;
-      Rays rays;
-      Mask met = hn::FirstN(float_tag, 0);
-      int hits = 0;
-      int most_hits = 0;
-      packet.begin(x, y);
-      while (packet.next(rays, hits))
+      for (int i = 0;; ++i)
       {
-        if (hits == 0)
+        if (!levels[i])
+        {
+          levels[i] =
+            std::make_unique<Level<Integrator>>(task, task.step / static_cast<double>(1 << i));
+        }
+        Level<Integrator>& level = *levels[i];
+        Gathered gathered;
+        Mask met = hn::FirstN(float_tag, 0);
+        const MarchCount packet =
+          march_packet(level.integrator, level.packet, x, y, gathered, met);
+        count.samples += packet.samples;
+        if (i < task.refinements && packet.rays > 0 &&
+          !hn::AllFalse(float_tag, gathered.error > real(task.refine_error)))
         {
           continue;
         }
-        most_hits = std::max(most_hits, hits);
-        met = hn::Or(met, rays.end > hn::Zero(float_tag));
-        rays.end = hn::IfThenZeroElse(gathered.left, rays.end);
-        count.samples += integrator.march(rays, gathered);
-      }
-      count.rays += most_hits;
-      if (most_hits > 0)
-      {
-        store(task, packet, met, gathered, integrator.depth_scale());
+        count.rays += packet.rays;
+        if (packet.rays > 0)
+        {
+          store(level.task, level.packet, met, gathered, level.integrator.depth_scale());
+        }
+        break;
       }
     }
   }

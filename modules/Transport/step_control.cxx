@@ -77,6 +77,8 @@ constexpr double longest = 4.0;
 constexpr double shortest = 1.0 / 32.0;
 /// The largest error of all pixels is larger than that of the rays that were looked at.
 constexpr double unseen = 1.5;
+/// The share of rays that settles the step of all, where the others can be refined.
+constexpr double most_rays = 0.95;
 /// What one sample of the rule costs, in samples of the midpoint rule, and how many samples the
 /// crossing of a voxel takes cell by cell.
 constexpr double cost_of_integrated = 1.6;
@@ -107,19 +109,25 @@ public:
     return film;
   }
 
-  static double change(const Film& a, const Film& b)
+  /// For each pixel the largest change of a channel.
+  static std::vector<double> changes(const Film& a, const Film& b)
   {
-    double change = 0.0;
+    std::vector<double> changes(a.size(), 0.0);
     for (std::size_t pixel = 0; pixel < a.size(); ++pixel)
     {
       for (int c = 0; c < 3; ++c)
       {
-        change =
-          std::max({ change, std::abs(double(a.radiance[c][pixel]) - b.radiance[c][pixel]),
-            std::abs(double(a.transmittance[c][pixel]) - b.transmittance[c][pixel]) });
+        changes[pixel] = std::max({ changes[pixel],
+          std::abs(double(a.radiance[c][pixel]) - b.radiance[c][pixel]),
+          std::abs(double(a.transmittance[c][pixel]) - b.transmittance[c][pixel]) });
       }
     }
-    return change;
+    return changes;
+  }
+  static double change(const Film& a, const Film& b)
+  {
+    const std::vector<double> all = changes(a, b);
+    return *std::max_element(all.begin(), all.end());
   }
 
 private:
@@ -131,6 +139,38 @@ private:
 
 }
 
+namespace
+{
+
+/// The value below which `share` of those that are not 0 lie.
+double quantile(std::vector<double> values, double share)
+{
+  values.erase(std::remove(values.begin(), values.end(), 0.0), values.end());
+  if (values.empty())
+  {
+    return 0.0;
+  }
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * (values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+/// How many times its estimate the error of a pixel is, for nearly all pixels whose error matters.
+double scale_of_estimates(const Film& film, const std::vector<double>& errors, double tolerance)
+{
+  std::vector<double> ratios;
+  for (std::size_t pixel = 0; pixel < film.size(); ++pixel)
+  {
+    if (errors[pixel] > 0.25 * tolerance)
+    {
+      ratios.push_back(errors[pixel] / std::max(double(film.error[pixel]), 1e-6));
+    }
+  }
+  return quantile(ratios, 0.95);
+}
+
+}
+
 StepChoice choose_step(Marcher& marcher, const Scene& scene, double tolerance, int threads)
 {
   Probe probe(marcher, scene, tolerance, threads);
@@ -138,10 +178,22 @@ StepChoice choose_step(Marcher& marcher, const Scene& scene, double tolerance, i
   double step = longest; // in voxel edges
   Film longer = probe.march(StepRule::Midpoint, step);
   Film shorter;
+  double step_of_most = 0.0;  // with which most rays are within the tolerance
+  double scale_of_most = 0.0; // of their estimates
   for (;;)
   {
     shorter = probe.march(StepRule::Midpoint, 0.5 * step);
-    choice.estimated_error = unseen * 4.0 / 3.0 * Probe::change(longer, shorter);
+    std::vector<double> errors = Probe::changes(longer, shorter);
+    for (double& error : errors)
+    {
+      error *= 4.0 / 3.0;
+    }
+    choice.estimated_error = unseen * *std::max_element(errors.begin(), errors.end());
+    if (step_of_most == 0.0 && quantile(errors, most_rays) <= tolerance)
+    {
+      step_of_most = step;
+      scale_of_most = scale_of_estimates(longer, errors, tolerance);
+    }
     choice.met = choice.estimated_error <= tolerance;
     if (choice.met || step <= shortest)
     {
@@ -149,6 +201,15 @@ StepChoice choose_step(Marcher& marcher, const Scene& scene, double tolerance, i
     }
     step *= 0.5;
     std::swap(longer, shorter);
+  }
+  if (choice.met && scene.blend_mode == BlendMode::Composite && step_of_most >= 4.0 * step &&
+    scale_of_most > 0.0)
+  {
+    choice.step = step_of_most * smallest_voxel_edge(scene);
+    choice.refinements = static_cast<int>(std::lround(std::log2(step_of_most / step)));
+    choice.refine_error = tolerance / scale_of_most;
+    choice.estimated_error = tolerance;
+    return choice;
   }
   if (choice.met && step < longest)
   {

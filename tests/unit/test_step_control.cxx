@@ -77,6 +77,8 @@ Film march(const Scene& scene, const StepChoice& choice, int size)
   MarchSettings settings;
   settings.rule = choice.rule;
   settings.step = choice.step;
+  settings.refinements = choice.refinements;
+  settings.refine_error = choice.refine_error;
   settings.leave_error = 0.0;
   Marcher().render(scene, settings, film);
   return film;
