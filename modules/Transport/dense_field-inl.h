@@ -8,6 +8,9 @@
 
 #include "Transport/cell-inl.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <type_traits>
 
 HWY_BEFORE_NAMESPACE();
@@ -50,42 +53,63 @@ public:
   /// The voxels of a cell.
   HWY_INLINE void read(const Cell& cell, Pair rows[4]) const
   {
+    const std::ptrdiff_t y = View.row[1];
+    const std::ptrdiff_t z = View.row[2];
+    // The lanes' offsets are counted from here, the last of them that may be read by whole words.
+    const std::uint8_t* base = View.base;
+    std::int64_t reach = static_cast<std::int64_t>(View.last_word) - y - z -
+                         (SecondBit ? 0 : static_cast<std::int64_t>(View.stride[0]));
+    Int slice = cell.index[2];
     if (HWY_UNLIKELY(View.far))
     {
-      for (int row = 0; row < 4; ++row)
+      // From the lanes' first slice on, the others are near enough but for very large slices.
+      const std::int64_t lowest = hn::GetLane(hn::MinOfLanes(int_tag, slice));
+      const std::int64_t highest = hn::GetLane(hn::MaxOfLanes(int_tag, slice));
+      const auto size = static_cast<std::int64_t>(View.stride[2]);
+      constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+      if ((highest - lowest + 1) * size > most || reach - lowest * size < 0)
       {
-        rows[row] = far_pair(cell.index[0],
-          hn::Min(cell.index[1] + integer(row & 1), last(1)),
-          hn::Min(cell.index[2] + integer(row >> 1), last(2)));
+        return read_far(cell, rows);
       }
+      base += lowest * size;
+      reach = std::min(reach - lowest * size, most);
+      slice = slice - integer(static_cast<int>(lowest));
+    }
+    const Int index[3] = { cell.index[0], cell.index[1], slice };
+    const Int offset = offset_of(index);
+    // Words near the end of the memory are read further down: seldom, and for all or none.
+    if (HWY_LIKELY(reach >= 0) &&
+        HWY_LIKELY(hn::AllFalse(int_tag, offset > integer(static_cast<int>(reach)))))
+    {
+      rows[0] = pair<false>(base, offset, 0);
+      rows[1] = pair<false>(base, offset, y);
+      rows[2] = pair<false>(base, offset, z);
+      rows[3] = pair<false>(base, offset, y + z);
+    }
+    else if (View.far)
+    {
+      read_far(cell, rows);
     }
     else
     {
-      const Int offset = offset_of(cell.index);
-      const std::ptrdiff_t y = View.row[1];
-      const std::ptrdiff_t z = View.row[2];
-      // Words near the end of the memory are read further down: seldom, and for all or none.
-      const std::int64_t reach = static_cast<std::int64_t>(View.last_word) - y - z -
-                                 (SecondBit ? 0 : static_cast<std::int64_t>(View.stride[0]));
-      if (HWY_LIKELY(reach >= 0) &&
-          HWY_LIKELY(hn::AllFalse(int_tag, offset > integer(static_cast<int>(reach)))))
-      {
-        rows[0] = pair<false>(offset, 0);
-        rows[1] = pair<false>(offset, y);
-        rows[2] = pair<false>(offset, z);
-        rows[3] = pair<false>(offset, y + z);
-      }
-      else
-      {
-        rows[0] = pair<true>(offset, 0);
-        rows[1] = pair<true>(offset, y);
-        rows[2] = pair<true>(offset, z);
-        rows[3] = pair<true>(offset, y + z);
-      }
+      rows[0] = pair<true>(base, offset, 0);
+      rows[1] = pair<true>(base, offset, y);
+      rows[2] = pair<true>(base, offset, z);
+      rows[3] = pair<true>(base, offset, y + z);
     }
   }
 
 private:
+  HWY_NOINLINE void read_far(const Cell& cell, Pair rows[4]) const
+  {
+    for (int row = 0; row < 4; ++row)
+    {
+      rows[row] = far_pair(cell.index[0],
+        hn::Min(cell.index[1] + integer(row & 1), last(1)),
+        hn::Min(cell.index[2] + integer(row >> 1), last(2)));
+    }
+  }
+
   struct Four
   {
     Real before, first, second, after;
@@ -116,10 +140,10 @@ private:
       {
         rows[side][0] = four(offset, side * z);
         rows[side][1] = four(offset, side * z + y);
-        beside_y[side][0] = pair<false>(offset, side * z - y);
-        beside_y[side][1] = pair<false>(offset, side * z + 2 * y);
-        beside_z[side][0] = pair<false>(offset, side * y - z);
-        beside_z[side][1] = pair<false>(offset, side * y + 2 * z);
+        beside_y[side][0] = pair<false>(View.base, offset, side * z - y);
+        beside_y[side][1] = pair<false>(View.base, offset, side * z + 2 * y);
+        beside_z[side][0] = pair<false>(View.base, offset, side * y - z);
+        beside_z[side][1] = pair<false>(View.base, offset, side * y + 2 * z);
       }
     }
     else
@@ -215,7 +239,7 @@ private:
       return far_pair(i, j, k);
     }
     const Int index[3] = { i, j, k };
-    return pair<true>(offset_of(index), 0);
+    return pair<true>(View.base, offset_of(index), 0);
   }
 
   HWY_INLINE Real single(Int i, Int j, Int k) const
@@ -225,15 +249,15 @@ private:
       return unpack<0>(far_word(i, j, k));
     }
     const Int index[3] = { i, j, k };
-    return unpack<0>(word<true>(offset_of(index), 0));
+    return unpack<0>(word<true>(View.base, offset_of(index), 0));
   }
 
   /// The voxel at a byte offset and its neighbour along x. Checked: the words may reach beyond the
   /// end of the memory.
   template <bool Checked>
-  HWY_INLINE Pair pair(Int offset, std::ptrdiff_t further) const
+  HWY_INLINE Pair pair(const std::uint8_t* base, Int offset, std::ptrdiff_t further) const
   {
-    const Int bits = word<Checked>(offset, further);
+    const Int bits = word<Checked>(base, offset, further);
     if constexpr (SecondBit > 0)
     {
       return { unpack<0>(bits), unpack<SecondBit>(bits) };
@@ -241,7 +265,7 @@ private:
     else
     {
       const auto next = further + static_cast<std::ptrdiff_t>(View.stride[0]);
-      return { unpack<0>(bits), unpack<0>(word<Checked>(offset, next)) };
+      return { unpack<0>(bits), unpack<0>(word<Checked>(base, offset, next)) };
     }
   }
 
@@ -252,13 +276,13 @@ private:
     const auto stride = static_cast<std::ptrdiff_t>(View.stride[0]);
     if constexpr (SecondBit == 8)
     {
-      const Int bits = word<false>(offset, further - stride);
+      const Int bits = word<false>(View.base, offset, further - stride);
       return { unpack<0>(bits), unpack<8>(bits), unpack<16>(bits), unpack<24>(bits) };
     }
     else
     {
-      const Pair low = pair<false>(offset, further - stride);
-      const Pair high = pair<false>(offset, further + stride);
+      const Pair low = pair<false>(View.base, offset, further - stride);
+      const Pair high = pair<false>(View.base, offset, further + stride);
       return { low.first, low.second, high.first, high.second };
     }
   }
@@ -278,12 +302,12 @@ private:
 
   /// 32 bits from the byte offset on.
   template <bool Checked>
-  HWY_INLINE Int word(Int offset, std::ptrdiff_t further) const
+  HWY_INLINE Int word(const std::uint8_t* base, Int offset, std::ptrdiff_t further) const
   {
     if constexpr (!Checked || sizeof(T) == 4)
     {
       return hn::GatherOffset(
-        int_tag, reinterpret_cast<const std::int32_t*>(View.base + further), offset);
+        int_tag, reinterpret_cast<const std::int32_t*>(base + further), offset);
     }
     else
     {
@@ -291,7 +315,7 @@ private:
       const Int at = offset + integer(static_cast<int>(further));
       const Int safe = hn::Min(at, LastWord);
       const Int bits = hn::ShiftLeft<3>(at - safe);
-      return hn::GatherOffset(int_tag, reinterpret_cast<const std::int32_t*>(View.base), safe) >>
+      return hn::GatherOffset(int_tag, reinterpret_cast<const std::int32_t*>(base), safe) >>
              bits;
     }
   }
