@@ -242,6 +242,31 @@ TEST(Rules, AreFollowedWhereTheyCanBe)
   EXPECT_TRUE(follows_rule(scene, StepRule::Midpoint));
 }
 
+// Every instruction set draws the same picture to 10⁻⁵, by every rule.
+TEST(Rules, AgreeOnEveryTarget)
+{
+  const Voxels<float> voxels = smooth_voxels();
+  Scene scene = scene_of(voxels, glm::dvec3(-0.5, 0.3, -0.9));
+  scene.volumes[0].classification = classify(0.0, 1.0,
+    [](double v) { return 0.9 / (1.0 + std::exp(-30.0 * (v - 0.5))); },
+    [](double v) { return glm::dvec3(v, 0.5, 1.0 - v); });
+  Scene density = scene;
+  density.volumes[0].meaning = ValueMeaning::Density;
+  for (StepRule rule : { StepRule::Midpoint, StepRule::Integrated, StepRule::Cells })
+  {
+    const Scene& drawn = rule == StepRule::Cells ? density : scene;
+    force_simd_target("");
+    const Film best = march(drawn, rule, 0.5);
+    for (const std::string& target : targets())
+    {
+      ASSERT_TRUE(force_simd_target(target));
+      EXPECT_LE(difference(march(drawn, rule, 0.5), best), 1e-5)
+        << step_rule_name(rule) << ' ' << target;
+    }
+    force_simd_target("");
+  }
+}
+
 // Jitter moves the samples, not the picture: where all is smooth the error stays small, the same in
 // every picture, and the optical depth of a constant is what it was.
 TEST(Jitter, KeepsTheLengthOfRays)
