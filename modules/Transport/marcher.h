@@ -32,6 +32,23 @@ const char* step_rule_name(StepRule rule);
 
 constexpr int most_refinements = 8;
 
+/// How the light that reaches a place in a lit medium is found to be dimmed on its way.
+enum class ShadowMethod
+{
+  /// It is not.
+  None,
+  /// A ray toward each light from each sample: right, and dear.
+  Rays,
+  /// Optical depths toward each light on a grid, swept once and kept while light and medium stay.
+  Volume,
+  /// For each light a map of functions of depth: where matter begins and ends, and six cosine
+  /// coefficients of the transmittance between. Little memory, soft shadows.
+  Functions,
+};
+
+/// "none", "rays", "volume" or "functions".
+const char* shadow_method_name(ShadowMethod method);
+
 /// How a picture is to be made.
 struct MarchSettings
 {
@@ -49,6 +66,16 @@ struct MarchSettings
   /// marched again with half the step, up to `refinements` times; 0 to most_refinements.
   int refinements = 0;
   double refine_error = 0.0;
+  /// Of lit media.
+  ShadowMethod shadows = ShadowMethod::Volume;
+  /// Length of a shadow ray's step, or distance between the nodes of a light volume or a shadow
+  /// map, in the data's units; 0: one voxel edge.
+  double shadow_step = 0.0;
+  /// Whether the media dim what is behind them (Effect::Absorption), and whether bricks that hold
+  /// nothing are leapt over. Other effects are left out by leaving them out of the scene
+  /// (effect_plan.h).
+  bool absorption = true;
+  bool leaping = true;
   /// Rays begin within their first step at a place that differs from pixel to pixel: long steps
   /// then show as grain rather than as bands. The same in every picture.
   bool jitter = false;
@@ -59,10 +86,14 @@ struct MarchSettings
 /// What making a picture took.
 struct MarchStatistics
 {
-  double seconds_prepare = 0.0; ///< scanning voxels, building tables; 0 when all was kept
+  double seconds_prepare = 0.0; ///< scanning voxels, building tables, sweeping light; 0 when all was kept
+  double seconds_light = 0.0;   ///< of these, sweeping light
   double seconds = 0.0;         ///< the render alone
   double step = 0.0;            ///< the step that was taken, in the data's units
   StepRule rule = StepRule::Midpoint; ///< the rule that was followed
+  ShadowMethod shadows = ShadowMethod::None; ///< of lit media; None where nothing is lit
+  double shadow_step = 0.0;                  ///< in the data's units
+  std::size_t light_bytes = 0;               ///< memory that light volumes or shadow maps take
   std::uint64_t samples = 0;    ///< places at which the grid was read
   std::uint64_t rays = 0;       ///< rays that met the grid
   int threads = 0;

@@ -4,6 +4,7 @@
 
 #include "Transport/bricks.h"
 #include "Transport/grid.h"
+#include "Transport/medium.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -18,10 +19,13 @@ namespace brume
 {
 
 /// Values as a density of matter: the extinction coefficient is `extinction * value`.
-/// Negative and non-finite values count as 0. The matter absorbs and does not emit.
+/// Negative and non-finite values count as 0. Without a lit medium (Volume::medium) the matter
+/// absorbs and does not emit.
 struct Density
 {
   double extinction = 1.0; ///< per unit of length and of density; ≥ 0
+  /// What R, G and B have of it, each in [0, 1]: σt = extinction · channels · value.
+  glm::dvec3 channels{ 1.0 };
 };
 
 /// Values classified by transfer functions, as a vtkVolumeProperty does.
@@ -101,9 +105,10 @@ struct Shading
   glm::dvec3 ambient_light{ 1.0 };
 };
 
-/// A light of the shading model, in world space. Colours include the intensity.
+/// A light, in world space. Colours include the intensity.
 struct Light
 {
+  /// What a white diffuse surface that faces the light sends: its irradiance is π times this.
   glm::dvec3 diffuse{ 1.0 };
   glm::dvec3 specular{ 1.0 };
   /// Unit vector along which the light travels.
@@ -151,7 +156,10 @@ struct Volume
   ValueMeaning meaning = ValueMeaning::Classified;
   Density density;
   Classification classification;
+  /// Where the medium is lit, light that shading sends on is dimmed on its way as all light is, and
+  /// shading takes the place of the phase function.
   Shading shading;
+  Medium medium;
   /// A factor on the extinction (and so on the light sent), as vtkVolumeProperty's component
   /// weight; ≥ 0. In projections it multiplies the volume's share of the pixel; surfaces do not
   /// take it.
@@ -235,6 +243,8 @@ struct Scene
   glm::dvec4 slice{ 0.0, 0.0, 1.0, 0.0 };
 
   std::vector<Light> lights;
+  Sky sky; ///< of lit media and fog
+  Fog fog;
   Camera camera;
 
   /// Opaque geometry: normalised device depth in [-1, 1] of the nearest surface of each pixel, rows
