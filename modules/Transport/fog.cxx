@@ -32,21 +32,6 @@ bool within(const glm::dvec3& v, double lower, double upper)
          v.z <= upper;
 }
 
-ShadeLight shape_at_origin(const Light& light)
-{
-  ShadeLight shape{};
-  for (int c = 0; c < 3; ++c)
-  {
-    shape.direction[c] = static_cast<float>(light.direction[c]);
-    shape.attenuation[c] = static_cast<float>(light.attenuation[c]);
-  }
-  shape.cone_cosine =
-    light.cone_angle >= 90.0 ? -2.0f : static_cast<float>(std::cos(light.cone_angle * pi / 180.0));
-  shape.exponent = static_cast<float>(light.exponent);
-  shape.positional = light.positional;
-  return shape;
-}
-
 /// k · amount, 0 where k is 0 and the amount infinite.
 double times(double k, double amount)
 {
@@ -96,7 +81,8 @@ FogModel::FogModel(const Scene& scene)
     lamp.rise = -glm::dot(light.direction, this->Up);
     lamp.profile = this->profile(light.position);
     lamp.positional = light.positional;
-    lamp.shape = shape_at_origin(light);
+    lamp.shape = prepare_light(light);
+    std::fill(lamp.shape.position, lamp.shape.position + 3, 0.0f);
     this->Lamps.push_back(lamp);
   }
   this->HalfColumn = this->find_half_column();
