@@ -16,7 +16,7 @@ enum class PhaseFunction
   Isotropic,        ///< 1 / 4π
   Rayleigh,         ///< 3 / 16π · (1 + cos²θ): particles much smaller than the wavelength
   HenyeyGreenstein, ///< (1 − g²) / 4π / (1 + g² − 2 g cos θ)^{3/2}
-  Schlick,          ///< (1 − k²) / 4π / (1 − k cos θ)², k = 1.55 g − 0.55 g³: cheaper, near the former
+  Schlick, ///< (1 − k²) / 4π / (1 − k cos θ)²: cheaper; k such that g is the mean cosine
 };
 
 /// A part of a phase function. θ is the angle between the directions of travel before and after;
@@ -26,8 +26,8 @@ struct PhaseLobe
   PhaseFunction function = PhaseFunction::Isotropic;
   /// ≥ 0. The weights of a medium's lobes are divided by their sum.
   double weight = 1.0;
-  /// g, in (−1, 1): forward > 0, backward < 0. Of Henyey and Greenstein's it is the mean cosine;
-  /// Schlick's has nearly this mean. Cut to ±0.9999. The others do not read it.
+  /// g, the mean cosine, in (−1, 1): forward > 0, backward < 0. Cut to ±0.9999. Of Henyey and
+  /// Greenstein's and of Schlick's; the others do not read it.
   double anisotropy = 0.0;
 };
 

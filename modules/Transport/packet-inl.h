@@ -109,6 +109,27 @@ HWY_INLINE Real opacity_from_optical_depth(Real x)
   return hn::IfThenElse(small, series, real(1.0f) - hn::Exp(float_tag, hn::Neg(x)));
 }
 
+/// (1 − exp(−x)) / x, the mean of exp(−x t) over t in [0, 1]; 1 at 0. By the same series for |x| < ½;
+/// `exp_x` is exp(−x), needed elsewhere.
+HWY_INLINE Real mean_transmittance(Real x, Real exp_x)
+{
+  const Mask small = hn::Abs(x) < real(0.5f);
+  Real sum = real(-1.0f / 40320.0f);
+  sum = hn::MulAdd(sum, x, real(1.0f / 5040.0f));
+  sum = hn::MulAdd(sum, x, real(-1.0f / 720.0f));
+  sum = hn::MulAdd(sum, x, real(1.0f / 120.0f));
+  sum = hn::MulAdd(sum, x, real(-1.0f / 24.0f));
+  sum = hn::MulAdd(sum, x, real(1.0f / 6.0f));
+  sum = hn::MulAdd(sum, x, real(-0.5f));
+  sum = hn::MulAdd(sum, x, real(1.0f));
+  if (HWY_LIKELY(hn::AllTrue(float_tag, small)))
+  {
+    return sum;
+  }
+  const Real quotient = (real(1.0f) - exp_x) / hn::IfThenElse(small, real(1.0f), x);
+  return hn::IfThenElse(small, sum, quotient);
+}
+
 template <class R>
 struct Vec3
 {
@@ -148,6 +169,11 @@ template <class R>
 HWY_INLINE R broadcast(float value)
 {
   return real(value);
+}
+template <class R>
+HWY_INLINE R constant(double value)
+{
+  return real(static_cast<float>(value));
 }
 template <class R>
 HWY_INLINE Vec3<R> broadcast3(const float* v)
