@@ -4,17 +4,17 @@
  *
  * A mapper simulates the effects that its scene calls for: what the scene does not have, and what
  * together changes no pixel by more than a quarter of the mapper's tolerance, is left out. Its plan
- * (vtkBrumeVolumeMapper::GetEffectPlan()) tells after each render what was settled, and takes orders
- * for the next:
+ * (vtkBrumeVolumeMapper::GetEffectPlan()) tells after each render what was settled, and takes
+ * orders for the next:
  *
  * @code
  * mapper->GetEffectPlan()->Force("shadows", true);
  * @endcode
  *
  * Effects are named "absorption", "emission", "scattering", "phase anisotropy", "coloured
- * extinction", "shadows", "ambient", "octaves", "gradient shading", "silver lining", "powder", "fog",
- * "surfaces", "space leaping"; a hyphen or an underscore does for a space, in any case of letters.
- * docs/theory/plan.md derives the bounds.
+ * extinction", "shadows", "ambient", "octaves", "gradient shading", "silver lining", "powder",
+ * "fog", "surfaces", "space leaping"; a hyphen or an underscore does for a space, in any case of
+ * letters. docs/theory/plan.md derives the bounds.
  */
 #ifndef vtkBrumeEffectPlan_h
 #define vtkBrumeEffectPlan_h
@@ -55,9 +55,9 @@ public:
 
   ///@{
   /**
-   * Whether the effect was simulated; why or why not, in words; the most that leaving it out changes
-   * a pixel, as a fraction of white (0 where it is on); whether it was forced. An index or a name
-   * that there is not: false, "", 0, false.
+   * Whether the effect was simulated; why or why not, in words; the most that leaving it out
+   * changes a pixel, as a fraction of white (0 where it is on); whether it was forced. An index or
+   * a name that there is not: false, "", 0, false.
    */
   bool GetEffectOn(int index) const;
   bool GetEffectOn(const char* name) const;

@@ -16,12 +16,12 @@
  *
  *     σt = extinction · density,  σs = albedo · σt
  *
- * for a density; where Extinction is 0 the vtkVolumeProperty classifies the values, σt is that of its
- * opacity, and albedo and emission are multiplied by its colour. A phase function is a mixture of
- * lobes; without one it is isotropic.
+ * for a density; where Extinction is 0 the vtkVolumeProperty classifies the values, σt is that of
+ * its opacity, and albedo and emission are multiplied by its colour. A phase function is a mixture
+ * of lobes; without one it is isotropic.
  *
- * SilverLining and Powder are not physical: they are off unless switched on, and the statistics of a
- * picture with one of them say that it is not radiometric.
+ * SilverLining and Powder are not physical: they are off unless switched on, and the statistics of
+ * a picture with one of them say that it is not radiometric.
  *
  * No setting ever becomes NaN or infinite: such a value is refused with a warning and the old one
  * kept. Values outside of a range are clamped.
@@ -53,10 +53,10 @@ public:
   ///@{
   /**
    * Extinction coefficient, absorption and scattering together, per unit of length and of density,
-   * for R, G and B; one number is for all three. Above 0 in any channel, the values are a density of
-   * matter: the property's functions are not read, and values below 0 count as 0. Default 0, 0, 0:
-   * the values are classified by the property (or are a density, where the mapper has an Extinction
-   * of its own). Negative values are set to 0.
+   * for R, G and B; one number is for all three. Above 0 in any channel, the values are a density
+   * of matter: the property's functions are not read, and values below 0 count as 0. Default 0, 0,
+   * 0: the values are classified by the property (or are a density, where the mapper has an
+   * Extinction of its own). Negative values are set to 0.
    */
   void SetExtinction(double red, double green, double blue);
   void SetExtinction(const double rgb[3]) { this->SetExtinction(rgb[0], rgb[1], rgb[2]); }
@@ -90,8 +90,8 @@ public:
   ///@{
   /**
    * Radiance that matter sends by itself per unit of length and of density, R, G, B. Of classified
-   * values: per unit of optical depth, and times the colour, so that 1 adds what VTK's composite mode
-   * draws. Default 0, 0, 0. Negative values are set to 0.
+   * values: per unit of optical depth, and times the colour, so that 1 adds what VTK's composite
+   * mode draws. Default 0, 0, 0. Negative values are set to 0.
    */
   void SetEmission(double red, double green, double blue);
   void SetEmission(const double rgb[3]) { this->SetEmission(rgb[0], rgb[1], rgb[2]); }
@@ -101,8 +101,8 @@ public:
 
   ///@{
   /**
-   * How much radiance of a black body at the temperature of the place is sent per unit of length and
-   * of density (of optical depth and times the colour, for classified values). A body of
+   * How much radiance of a black body at the temperature of the place is sent per unit of length
+   * and of density (of optical depth and times the colour, for classified values). A body of
    * BlackBodyReference kelvin has the luminance 1; its radiance grows steeply with the temperature.
    * Needs TemperatureArrayName. Default 0: none. Negative values are set to 0.
    */
@@ -121,8 +121,8 @@ public:
 
   ///@{
   /**
-   * The array of the input's point data that holds temperatures, of one component, on the lattice of
-   * the values. Read only where BlackBody is above 0. Default none. Images only.
+   * The array of the input's point data that holds temperatures, of one component, on the lattice
+   * of the values. Read only where BlackBody is above 0. Default none. Images only.
    */
   vtkSetStdStringFromCharMacro(TemperatureArrayName);
   vtkGetCharFromStdStringMacro(TemperatureArrayName);
@@ -130,8 +130,8 @@ public:
 
   ///@{
   /**
-   * Kelvin in one unit of the temperature array. Default 1. Values that are not positive are refused
-   * with a warning.
+   * Kelvin in one unit of the temperature array. Default 1. Values that are not positive are
+   * refused with a warning.
    */
   void SetTemperatureScale(double kelvin);
   vtkGetMacro(TemperatureScale, double);
@@ -155,7 +155,8 @@ public:
    * - Isotropic: 1 / 4π.
    * - Rayleigh: 3 / 16π · (1 + cos²θ): particles much smaller than the wavelength.
    * - Henyey and Greenstein: (1 − g²) / 4π / (1 + g² − 2 g cos θ)^{3/2}, of mean cosine g.
-   * - Schlick: (1 − k²) / 4π / (1 − k cos θ)², k = 1.55 g − 0.55 g³: near the former, and cheaper.
+   * - Schlick: (1 − k²) / 4π / (1 − k cos θ)²: near the former, and cheaper; k is such that g is
+   * the mean cosine here, too.
    *
    * Weights are divided by their sum; one that is not positive is refused with a warning. g above 0
    * scatters forward, below 0 backward; clamped to ±0.9999. No lobe, the default, is isotropic.
@@ -173,8 +174,8 @@ public:
 
   ///@{
   /**
-   * The lobes in the order in which they were added: the function (a LobeFunction), the weight as it
-   * was given, and g (0 for functions without one). An index that there is not: isotropic, 0, 0.
+   * The lobes in the order in which they were added: the function (a LobeFunction), the weight as
+   * it was given, and g (0 for functions without one). An index that there is not: isotropic, 0, 0.
    */
   int GetNumberOfLobes() const;
   int GetLobeFunction(int index) const;
@@ -185,8 +186,8 @@ public:
   ///@{
   /**
    * One number for the phase function. Setting it puts one Henyey–Greenstein lobe of this g in the
-   * place of all lobes, or none for 0. Got is the mean of cos θ over the phase function: the lobes'
-   * g by weight (a Schlick lobe's true mean is within 0.04 of its g).
+   * place of all lobes, or none for 0. Got is the mean of cos θ over the phase function: the mean
+   * of the lobes' g by weight. Default 0. Clamped to ±0.9999.
    */
   void SetAnisotropy(double anisotropy);
   double GetAnisotropy() const;
@@ -198,13 +199,13 @@ public:
   /**
    * Multiple scattering as a sum of single scatterings in ever thinner matter: octave m, from 0 on,
    * sends OctaveContributionᵐ of the light, dimmed on its way from the light by OctaveAttenuationᵐ
-   * of the extinction, by a phase function of OctaveAnisotropyᵐ · g. An approximation without a bound
-   * on its error. Default 1 octave, which is single scattering, and ½ for each of the others. Ranges:
-   * 1 to 16 octaves; factors 0 to 1; values outside are clamped.
+   * of the extinction, by a phase function of OctaveAnisotropyᵐ · g. An approximation without a
+   * bound on its error. Default 1 octave, which is single scattering, and ½ for each of the others.
+   * Ranges: 1 to 16 octaves; factors 0 to 1; values outside are clamped.
    *
-   * A contribution above the attenuation would make light from nothing. It is refused with a warning;
-   * an attenuation that is set below the contribution takes the contribution down with it. So set
-   * the attenuation first.
+   * A contribution above the attenuation would make light from nothing. It is refused with a
+   * warning; an attenuation that is set below the contribution takes the contribution down with it.
+   * So set the attenuation first.
    */
   vtkSetClampMacro(NumberOfOctaves, int, 1, 16);
   vtkGetMacro(NumberOfOctaves, int);

@@ -42,8 +42,8 @@ public:
 
   ///@{
   /**
-   * Radiance of the half of the sphere around Up, R, G, B. Default 0, 0, 0. A white surface under an
-   * open sky of radiance 1 has the radiance 1. Negative values are set to 0.
+   * Radiance of the half of the sphere around Up, R, G, B. Default 0, 0, 0. A white surface under
+   * an open sky of radiance 1 has the radiance 1. Negative values are set to 0.
    */
   void SetSkyRadiance(double red, double green, double blue);
   void SetSkyRadiance(const double rgb[3]) { this->SetSkyRadiance(rgb[0], rgb[1], rgb[2]); }
@@ -56,10 +56,7 @@ public:
    * to 0.
    */
   void SetGroundRadiance(double red, double green, double blue);
-  void SetGroundRadiance(const double rgb[3])
-  {
-    this->SetGroundRadiance(rgb[0], rgb[1], rgb[2]);
-  }
+  void SetGroundRadiance(const double rgb[3]) { this->SetGroundRadiance(rgb[0], rgb[1], rgb[2]); }
   vtkGetVector3Macro(GroundRadiance, double);
   ///@}
 
@@ -78,10 +75,10 @@ public:
    * Radiance from all directions, seen from the scene: a latitude–longitude image of one slice, its
    * point scalars R, G, B (linear; further components are not read), rows from the bottom up. The
    * last row is at Up, the first one opposite, the columns go all round. Seen from inside, with
-   * Up upward, the picture is upright and not mirrored. With Up = z the middle of the map lies toward
-   * +y and what is right of it toward +x; with Up = y, toward −z and +x; for another Up all that is
-   * turned the shortest way from z. Values that are negative or not finite count as 0. Default null:
-   * none. vtkBrumeEnvironmentReader reads one.
+   * Up upward, the picture is upright and not mirrored. With Up = z the middle of the map lies
+   * toward +y and what is right of it toward +x; with Up = y, toward −z and +x; for another Up all
+   * that is turned the shortest way from z. Values that are negative or not finite count as 0.
+   * Default null: none. vtkBrumeEnvironmentReader reads one.
    */
   virtual void SetEnvironmentMap(vtkImageData* map);
   vtkImageData* GetEnvironmentMap();
@@ -97,10 +94,10 @@ public:
 
   ///@{
   /**
-   * How many directional lights the map becomes: the sphere is cut into so many regions of about the
-   * same energy (median cut, Debevec 2005), each a light at its middle that has all of the region's
-   * irradiance. More are closer to the map and take longer. Fewer come out where fewer pixels are
-   * above 0. Default 16. Range 1 to 1024; values outside are clamped.
+   * How many directional lights the map becomes: the sphere is cut into so many regions of about
+   * the same energy (median cut, Debevec 2005), each a light at its middle that has all of the
+   * region's irradiance. More are closer to the map and take longer. Fewer come out where fewer
+   * pixels are above 0. Default 16. Range 1 to 1024; values outside are clamped.
    */
   vtkSetClampMacro(NumberOfEnvironmentLights, int, 1, 1024);
   vtkGetMacro(NumberOfEnvironmentLights, int);
