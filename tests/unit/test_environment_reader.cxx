@@ -18,7 +18,6 @@
 #include <string>
 #include <vector>
 
-using scan_files::folder;
 using scan_files::load;
 using scan_files::save;
 
@@ -104,14 +103,15 @@ void expect_values(vtkImageData* image, int width, int height)
 
 TEST(EnvironmentReader, ReadsOpenExrAndRadianceHdrFromTheBottomUp)
 {
-  write(folder() + "sky.hdr", 12, 6, { "R", "G", "B" });
-  write(folder() + "sky.exr", 12, 6, { "R", "G", "B" });
-  write(folder() + "half.exr", 12, 6, { "R", "G", "B" }, OIIO::TypeDesc::HALF);
-  write(folder() + "more.exr", 12, 6, { "A", "B", "G", "R", "Z" });
+  const std::string folder = scan_files::folder();
+  write(folder + "sky.hdr", 12, 6, { "R", "G", "B" });
+  write(folder + "sky.exr", 12, 6, { "R", "G", "B" });
+  write(folder + "half.exr", 12, 6, { "R", "G", "B" }, OIIO::TypeDesc::HALF);
+  write(folder + "more.exr", 12, 6, { "A", "B", "G", "R", "Z" });
   for (const char* name : { "sky.hdr", "sky.exr", "half.exr", "more.exr" })
   {
     SCOPED_TRACE(name);
-    Reader reader(folder() + name);
+    Reader reader(folder + name);
     EXPECT_EQ(reader.error(), "");
     EXPECT_EQ(reader.errors, 0);
     expect_values(reader.output(), 12, 6);
@@ -125,13 +125,14 @@ TEST(EnvironmentReader, ReadsOpenExrAndRadianceHdrFromTheBottomUp)
 
 TEST(EnvironmentReader, SaysWhatIsWrong)
 {
-  write(folder() + "small.png", 12, 6, { "R", "G", "B" }, OIIO::TypeDesc::UINT8);
-  write(folder() + "square.exr", 12, 12, { "R", "G", "B" });
-  write(folder() + "grey.exr", 12, 6, { "Y" });
-  write(folder() + "sky.exr", 12, 6, { "R", "G", "B" });
-  save(folder() + "text.hdr", "no picture at all");
-  const std::string whole = load(folder() + "sky.exr");
-  save(folder() + "cut.exr", whole.substr(0, whole.size() / 2));
+  const std::string folder = scan_files::folder(); // empties it
+  write(folder + "small.png", 12, 6, { "R", "G", "B" }, OIIO::TypeDesc::UINT8);
+  write(folder + "square.exr", 12, 12, { "R", "G", "B" });
+  write(folder + "grey.exr", 12, 6, { "Y" });
+  write(folder + "sky.exr", 12, 6, { "R", "G", "B" });
+  save(folder + "text.hdr", "no picture at all");
+  const std::string whole = load(folder + "sky.exr");
+  save(folder + "cut.exr", whole.substr(0, whole.size() / 2));
   const std::pair<const char*, const char*> cases[] = {
     { "none.exr", "no such file" },
     { "small.png", "does not hold linear light" },
@@ -143,14 +144,14 @@ TEST(EnvironmentReader, SaysWhatIsWrong)
   for (const auto& [name, words] : cases)
   {
     SCOPED_TRACE(name);
-    Reader reader(folder() + name);
+    Reader reader(folder + name);
     EXPECT_EQ(reader.errors, 1);
-    EXPECT_EQ(reader.error().find(folder() + name + ": "), 0u) << reader.error();
+    EXPECT_EQ(reader.error().find(folder + name + ": "), 0u) << reader.error();
     EXPECT_NE(reader.error().find(words), std::string::npos) << reader.error();
     EXPECT_EQ(reader.error().find('\n'), std::string::npos);
     EXPECT_EQ(reader.output()->GetNumberOfPoints(), 0);
     // And it recovers.
-    reader.reader->SetFileName((folder() + "sky.exr").c_str());
+    reader.reader->SetFileName((folder + "sky.exr").c_str());
     reader.reader->Update();
     EXPECT_EQ(reader.error(), "");
     expect_values(reader.output(), 12, 6);
