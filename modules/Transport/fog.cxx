@@ -120,7 +120,19 @@ double FogModel::column(const FogRay& ray, double from, double to) const
     return fall > 0.0 ? begin / fall : fall < 0.0 || begin > 0.0 ? infinity : 0.0;
   }
   const double end = fall != 0.0 ? this->profile(ray, to) : begin;
-  return scalar::fog_column(begin, end, std::abs(fall) * length, length);
+  return column_between(begin, end, std::abs(fall), length);
+}
+
+double FogModel::column_between(double begin, double end, double fall, double length)
+{
+  const double densest = std::max(begin, end);
+  if (!(densest < infinity))
+  {
+    return infinity;
+  }
+  // So steep that the product may overflow.
+  return fall * length > 1e100 ? densest / fall
+                               : scalar::fog_column(begin, end, fall * length, length);
 }
 
 // amount = f (1 − e^(−b L)) / b, f at `from`, b the falloff along the ray, solved for L.

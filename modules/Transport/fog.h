@@ -125,6 +125,8 @@ private:
 
   glm::dvec3 lit_by_sun(const Lamp& lamp, const FogRay& ray, double from, double to) const;
   glm::dvec3 lit_by_lamp(const Lamp& lamp, const FogRay& ray, double from, double to) const;
+  /// Of a stretch between two places of these profiles; the falloff along it is ±`fall`.
+  static double column_between(double begin, double end, double fall, double length);
   double lamp_column(const Lamp& lamp, double profile, const glm::dvec3& offset) const;
   double find_half_column() const;
   friend class FogLampIntegral;

@@ -14,7 +14,7 @@ namespace brume
 namespace
 {
 
-constexpr int degree = 23;
+constexpr int degree = 17;
 /// Above, the tail is asked of exponential_integral_2 itself, where it is quick.
 constexpr double largest_quick = 50.0;
 /// Optical depths from which next to nothing comes: e^−24 = 4e-11.
@@ -140,7 +140,9 @@ glm::dvec3 FogModel::ambient(const FogRay& ray, double from, double to) const
                quick_exponential_integral_2(least + std::abs(ray.slope) * away);
       }
     };
-    length < 1.0 ? add(gauss_legendre<8>()) : add(gauss_legendre<20>());
+    length < 1.0   ? add(gauss_legendre<8>())
+    : length < 6.0 ? add(gauss_legendre<12>())
+                   : add(gauss_legendre<20>());
     share[c] = sum * length;
   }
   return this->Albedo * (this->SkyRadiance * share + ground * share) * 0.5;

@@ -27,14 +27,16 @@ namespace
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double longest_stretch = 2.5;
 /// The largest change of the integrand's logarithm in a stretch.
-constexpr double largest_change = 3.0;
+constexpr double largest_change = 4.0;
 constexpr int most_halvings = 24;
 /// Some tens are enough for any ray that numbers can resolve.
 constexpr int most_cuts = 2000;
 /// e^−750 is 0.
 constexpr double darkest = 750.0;
-/// Optical depths from which nothing comes: e^−60 = 9e-27.
-constexpr double deepest = 60.0;
+/// Stretches in which the integrand is e^−30 of what it is elsewhere are left out.
+constexpr double negligible = 30.0;
+/// Optical depths from which nothing comes: e^−40 = 4e-18.
+constexpr double deepest = 40.0;
 
 }
 
@@ -103,13 +105,19 @@ public:
     {
       return this->Sum;
     }
+    std::array<double, 5> exponents{};
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      exponents[i] = this->exponent(cuts[i]);
+      this->Least = std::min(this->Least, exponents[i]);
+    }
     for (std::size_t i = 0; i + 1 < count; ++i)
     {
       if (this->in_cone(0.5 * (cuts[i] + cuts[i + 1])))
       {
         const double v0 = std::asinh(cuts[i] / this->Width);
         const double v1 = std::asinh(cuts[i + 1] / this->Width);
-        this->add(v0, this->exponent(cuts[i]), v1, this->exponent(cuts[i + 1]), 0);
+        this->add(v0, exponents[i], v1, exponents[i + 1], 0);
       }
     }
     return this->Sum;
@@ -186,7 +194,7 @@ private:
   double columns(double x, double profile) const
   {
     const double way = std::max(0.0, x - this->Lower);
-    return scalar::fog_column(this->Begin, profile, this->Fall * way, way) +
+    return FogModel::column_between(this->Begin, profile, this->Fall, way) +
            this->Fog.lamp_column(this->Light, profile, this->offset(x));
   }
 
@@ -208,7 +216,8 @@ private:
     const double middle = 0.5 * (v0 + v1);
     const double e = this->exponent(this->Width * std::sinh(middle));
     const bool is_long = v1 - v0 > longest_stretch;
-    if (!is_long && std::min({ e0, e, e1 }) > darkest)
+    this->Least = std::min(this->Least, e);
+    if (!is_long && std::min({ e0, e, e1 }) > this->Least + negligible)
     {
       return;
     }
@@ -263,6 +272,7 @@ private:
   double Lower = 0.0;
   double Upper = 0.0;
   double Width = 0.0; ///< of the substitution: the distance, or next to nothing where it is 0
+  double Least = darkest; ///< of the exponents so far
   int Cuts = 0;
   double Sum = 0.0;
 };
@@ -271,12 +281,12 @@ double FogModel::lamp_column(
   const Lamp& lamp, double profile, const glm::dvec3& offset) const
 {
   const double length = glm::length(offset);
-  if (!(this->Falloff > 0.0))
+  if (!(this->Falloff > 0.0) || !(length > 0.0))
   {
     return length;
   }
-  return scalar::fog_column(
-    profile, lamp.profile, this->Falloff * std::abs(glm::dot(offset, this->Up)), length);
+  const double slope = std::abs(glm::dot(offset, this->Up)) / length;
+  return column_between(profile, lamp.profile, this->Falloff * slope, length);
 }
 
 glm::dvec3 FogModel::lit_by_lamp(
