@@ -297,7 +297,15 @@ StepChoice choose_step(Marcher& marcher,
   int threads,
   const MarchSettings& base)
 {
-  Probe probe(marcher, scene, tolerance, threads, base);
+  // Shadow rays would be dear here, and what bends in a light volume bends for them.
+  MarchSettings cheap = base;
+  if (base.shadows == ShadowMethod::Rays)
+  {
+    cheap.shadows = ShadowMethod::Volume;
+    cheap.shadow_step = 0.0;
+    cheap.precise_shadows = true;
+  }
+  Probe probe(marcher, scene, tolerance, threads, cheap);
   StepChoice choice;
   // In voxel edges. Light from one side bends where matter alone does not.
   double step = is_lit(scene) ? longest_lit : longest;
