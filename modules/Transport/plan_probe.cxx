@@ -20,8 +20,8 @@ namespace brume
 namespace
 {
 
-/// The optical depth that the scene's extinction is scaled to, corner to corner: small enough for the
-/// exponential in single precision, large enough for it to keep the digits of thin matter.
+/// The optical depth that the scene's extinction is scaled to, corner to corner: small enough for
+/// the exponential in single precision, large enough for it to keep the digits of thin matter.
 constexpr double scaled_depth = 40.0;
 /// Between two rays a depth may be larger than both by half of what they differ by, and some more
 /// where it bends.
@@ -70,12 +70,28 @@ void include(MatterFigures& figures, const Classification& c, double lower, doub
     std::max(figures.extinction, gradient * extinction_from_opacity(most, c.unit_distance));
 }
 
+/// The longest way through the grid, in the data's units.
+double diagonal(const Volume& volume)
+{
+  const glm::dmat3 m(volume.data_from_index);
+  double longest = 0.0;
+  for (int corner = 0; corner < 4; ++corner)
+  {
+    const glm::dvec3 extent(volume.grid.upper(0) - volume.grid.lower(0),
+      (corner & 1 ? -1.0 : 1.0) * (volume.grid.upper(1) - volume.grid.lower(1)),
+      (corner & 2 ? -1.0 : 1.0) * (volume.grid.upper(2) - volume.grid.lower(2)));
+    longest = std::max(longest, glm::length(m * extent));
+  }
+  return longest;
+}
+
 MatterFigures figures_of(const Volume& volume, double lower, double upper, bool gaps)
 {
   MatterFigures figures;
   if (volume.meaning == ValueMeaning::Density)
   {
     figures.density = std::max(0.0, upper);
+    figures.amount = figures.density * diagonal(volume);
     figures.extinction = figures.density * volume.density.extinction * volume.weight;
     return figures;
   }
@@ -100,27 +116,6 @@ MatterFigures figures_of(const Volume& volume, double lower, double upper, bool 
   }
   figures.extinction *= volume.weight;
   return figures;
-}
-
-double diagonal(const Volume& volume)
-{
-  double square = 0.0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    // Of a box whose axes are not square to one another the sum of the edges is what bounds it.
-    square += glm::length(glm::dvec3(volume.data_from_index[axis])) *
-              (volume.grid.upper(axis) - volume.grid.lower(axis));
-  }
-  const glm::dmat3 m(volume.data_from_index);
-  double longest = 0.0;
-  for (int corner = 0; corner < 4; ++corner)
-  {
-    const glm::dvec3 extent(volume.grid.upper(0) - volume.grid.lower(0),
-      (corner & 1 ? -1.0 : 1.0) * (volume.grid.upper(1) - volume.grid.lower(1)),
-      (corner & 2 ? -1.0 : 1.0) * (volume.grid.upper(2) - volume.grid.lower(2)));
-    longest = std::max(longest, glm::length(m * extent));
-  }
-  return std::min(longest, square);
 }
 
 struct Sphere
@@ -308,8 +303,7 @@ void PlanProbe::look_at_lights(Marcher& marcher, int threads)
 {
   const Scene& scene = this->Bare;
   this->KeptDepths.resize(scene.lights.size() + 1);
-  const int edge =
-    scene.lights.size() > few_lights ? ViewFigures::edge / 2 : ViewFigures::edge;
+  const int edge = scene.lights.size() > few_lights ? ViewFigures::edge / 2 : ViewFigures::edge;
   const Sphere sphere = around_volumes(scene);
   const std::vector<Light> lights = scene.lights;
   this->Figures.lights.clear();
@@ -346,7 +340,14 @@ void PlanProbe::look_at_lights(Marcher& marcher, int threads)
       }
       kept.key = key;
     }
-    (vertical ? this->Figures.vertical : this->Figures.lights.emplace_back()) = kept.deepest;
+    if (vertical)
+    {
+      this->Figures.vertical = kept.deepest;
+    }
+    else
+    {
+      this->Figures.lights.push_back(kept.deepest);
+    }
   }
 }
 
@@ -367,11 +368,9 @@ void PlanProbe::look_at_view(Marcher& marcher, int threads)
     {
       const auto place = [&](double z)
       {
-        const glm::dvec4 p = world_from_clip *
-                             glm::dvec4((2.0 * x + 1.0) / edge - 1.0,
-                               (2.0 * y + 1.0) / edge - 1.0,
-                               z,
-                               1.0);
+        const glm::dvec4 p =
+          world_from_clip *
+          glm::dvec4((2.0 * x + 1.0) / edge - 1.0, (2.0 * y + 1.0) / edge - 1.0, z, 1.0);
         return glm::dvec3(p) / p.w;
       };
       const std::size_t i = static_cast<std::size_t>(y) * edge + x;
@@ -382,6 +381,8 @@ void PlanProbe::look_at_view(Marcher& marcher, int threads)
     }
   }
   view.angle = 0.0;
+  view.width = 0.0;
+  view.edge_of_voxel = smallest_voxel_edge(this->Bare);
   for (int y = 0; y + 1 < edge; ++y)
   {
     for (int x = 0; x + 1 < edge; ++x)
@@ -390,6 +391,8 @@ void PlanProbe::look_at_view(Marcher& marcher, int threads)
       const double apart = std::max(glm::length(view.direction[i] - view.direction[i + edge + 1]),
         glm::length(view.direction[i + 1] - view.direction[i + edge]));
       view.angle = std::max(view.angle, std::asin(std::min(1.0, 0.5 * apart)));
+      view.width =
+        std::max(view.width, 0.5 * glm::length(view.origin[i] - view.origin[i + edge + 1]));
     }
   }
 }
@@ -426,9 +429,9 @@ const PlanFigures& PlanProbe::look(Marcher& marcher, const Scene& scene, int thr
   {
     key.add(++this->Unkept);
   }
+  this->look_at_values(scene, threads);
   if (!(key == this->MatterKey))
   {
-    this->look_at_values(scene, threads);
     this->MatterKey = key;
     this->ViewKey = PlanKey();
     this->Bare = scene;
@@ -466,7 +469,8 @@ const PlanFigures& PlanProbe::look(Marcher& marcher, const Scene& scene, int thr
     this->look_at_view(marcher, threads);
     this->ViewKey = view_key;
   }
-  const bool lit = std::any_of(scene.volumes.begin(), scene.volumes.end(),
+  const bool lit = std::any_of(scene.volumes.begin(),
+    scene.volumes.end(),
     [](const Volume& volume) { return volume.medium.lit; });
   this->Bare.lights = scene.lights;
   if (lit)

@@ -1,5 +1,5 @@
-// What a scene holds at the most, looked at by small films: the figures that effects are planned by.
-// Internal to Transport. Theory: docs/theory/plan.md.
+// What a scene holds at the most, looked at by small films: the figures that effects are planned
+// by. Internal to Transport. Theory: docs/theory/plan.md.
 #pragma once
 
 #include "Transport/marcher.h"
@@ -31,11 +31,12 @@ private:
 /// Bounds of what one volume holds.
 struct MatterFigures
 {
-  double extinction = 0.0; ///< per unit of the data's length, of a channel of 1
-  double density = 0.0;    ///< of densities
-  double opacity = 0.0;    ///< of classified values, over the unit distance
+  double extinction = 0.0;  ///< per unit of the data's length, of a channel of 1
+  double density = 0.0;     ///< of densities
+  double amount = 0.0;      ///< densities: ∫ density ds along any ray
+  double opacity = 0.0;     ///< of classified values, over the unit distance
   glm::dvec3 colour{ 1.0 }; ///< of classified values that can be seen
-  double kelvin = 0.0;     ///< of Medium::temperature, where it is asked for
+  double kelvin = 0.0;      ///< of Medium::temperature, where it is asked for
 };
 
 /// Rays of the camera, spread evenly over the volumes' outline. Distances are world units.
@@ -50,6 +51,8 @@ struct ViewFigures
   std::vector<double> depth;
   double deepest = 0.0; ///< the largest of these
   double angle = 0.0;   ///< half of the angle between rays that are neighbours across a corner
+  double width = 0.0;   ///< half of the distance between their origins
+  double edge_of_voxel = 0.0; ///< the smallest, in the data's units
 };
 
 struct PlanFigures
@@ -99,7 +102,7 @@ private:
   PlanKey MatterKey;
   PlanKey ViewKey;
   std::uint64_t Unkept = 0; ///< makes keys of what has no revision unlike all others
-  Scene Bare; ///< the scene without light, its extinction times Scale
+  Scene Bare;               ///< the scene without light, its extinction times Scale
   double Scale = 1.0;
   double Hidden = 0.0; ///< optical depth that a film one ray wide might overlook
   PlanFigures Figures;
@@ -108,7 +111,8 @@ private:
 /// A view along `direction` that holds all of a scene's volumes.
 glm::dmat4 parallel_view(const Scene& scene, const glm::dvec3& direction);
 
-/// Views from a place that together hold all of a scene's volumes: one from outside, six from inside.
+/// Views from a place that together hold all of a scene's volumes: one from outside, six from
+/// inside.
 std::vector<glm::dmat4> views_from(const Scene& scene, const glm::dvec3& place);
 
 }

@@ -19,8 +19,7 @@ std::vector<glm::dvec3> corners_of_volumes(const Scene& scene, std::size_t volum
       glm::dvec4 place(0.0, 0.0, 0.0, 1.0);
       for (int axis = 0; axis < 3; ++axis)
       {
-        place[axis] =
-          (corner >> axis) & 1 ? volume.grid.upper(axis) : volume.grid.lower(axis);
+        place[axis] = (corner >> axis) & 1 ? volume.grid.upper(axis) : volume.grid.lower(axis);
       }
       corners.push_back(glm::dvec3(world_from_index * place));
     }
