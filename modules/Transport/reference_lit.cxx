@@ -22,6 +22,10 @@ constexpr double gauss_weights[4][3] = {
   { 5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0 },
 };
 
+/// Below this transmittance nothing is followed; less than nothing_passes, as what is behind may be
+/// far brighter than what is in front.
+constexpr double nothing_lit_passes = 1e-14;
+
 /// The places of a ray at which a light near it begins or ceases to shine, and ever closer ones
 /// toward its foot, where attenuation and angle change with the logarithm of the distance.
 void add_light_cuts(const Light& light, const PixelRay& ray, std::vector<double>& cuts)
@@ -144,7 +148,7 @@ public:
         result.transmittance = glm::exp(-depth);
         result.passed(begin + 0.5 * width);
       }
-      if (result.passes() < nothing_passes)
+      if (result.passes() < nothing_lit_passes)
       {
         break;
       }
