@@ -438,3 +438,28 @@ TEST(LitMedia, HiddenPartsCastNoShadow)
     EXPECT_LE(error, 1e-6) << way;
   }
 }
+
+// One octave is single scattering, and what is switched off is not there, to the bit.
+TEST(LitMedia, WhatIsOffChangesNoBit)
+{
+  const View view = Slab(depths).look(30.0);
+  std::vector<Film> films;
+  for (const bool other : { false, true })
+  {
+    Slab slab(depths);
+    slab.add_sun(sun_zenith, 40.0, sun_diffuse);
+    slab.scene.sky.radiance = glm::dvec3(0.3);
+    slab.medium().lobes = { { PhaseFunction::HenyeyGreenstein, 1.0, 0.6 } };
+    if (other)
+    {
+      slab.medium().octaves = { 1, 0.3, 0.2, 0.1 };
+      slab.medium().silver_lining = { false, 5.0, 0.01, 0.9 };
+      slab.medium().powder = { false, 1.0, Powder::Form::Height, 3.0 };
+      slab.medium().black_body_reference = 3000.0;
+      slab.medium().temperature_scale = 50.0;
+    }
+    slab.scene.camera = view.camera(1.0);
+    films.push_back(reference(slab.scene, edge, edge));
+  }
+  EXPECT_TRUE(same_bits(films[0], films[1]));
+}
