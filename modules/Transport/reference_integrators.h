@@ -61,9 +61,7 @@ struct RayResult
   /// To be called at each s in order: fills in half_way.
   void passed(double s)
   {
-    const double mean =
-      (this->transmittance.x + this->transmittance.y + this->transmittance.z) / 3.0;
-    if (std::isinf(this->half_way) && mean < 0.5)
+    if (std::isinf(this->half_way) && this->passes() < 0.5)
     {
       this->half_way = s;
     }

@@ -125,6 +125,8 @@ struct ReferenceLighting::Body
 
   void find_height(const Sky& sky);
   double powder(const FoundMatter& found, const glm::dvec3& world) const;
+  /// The ambient light that is scattered.
+  glm::dvec3 ambient(const FoundMatter& found, const Arriving& light) const;
   glm::dvec3 scattered(const FoundMatter& found, const Arriving& light) const;
   glm::dvec3 shaded(const FoundMatter& found, const Arriving& light) const;
   glm::dvec3 emitted(const FoundMatter& found, const glm::dvec3& place) const;
@@ -166,7 +168,7 @@ ReferenceLighting::ReferenceLighting(const Scene& scene, const std::vector<Refer
       one.lights.assign(1, light);
       body.by_lamp.push_back(one);
     }
-    if (medium.black_body > 0.0)
+    if (medium.black_body > 0.0 && medium.temperature.voxels)
     {
       black_body_radiance(0.0, medium.black_body_reference); // throws for one that is not usable
       body.temperature = ReferenceGrid::make(medium.temperature, 0.0);
@@ -208,10 +210,8 @@ double ReferenceLighting::Body::powder(const FoundMatter& found, const glm::dvec
   double density = found.value;
   if (!this->matter->is_density())
   {
-    const Volume& v = this->volume();
-    const Classification& c =
-      found.label > 0 ? v.label_classifications[found.label - 1] : v.classification;
-    density = opacity_from_optical_depth(found.extinction * c.unit_distance);
+    density = opacity_from_optical_depth(
+      found.extinction * this->volume().weight * this->volume().classification.unit_distance);
   }
   const double d = std::clamp(powder.scale * density, 0.0, 1.0);
   if (powder.form == Powder::Form::Exponential)
@@ -224,11 +224,16 @@ double ReferenceLighting::Body::powder(const FoundMatter& found, const glm::dvec
   return 1.0 - inside * std::pow(remap(h, 0.0, 0.3, 0.8, 1.0), 0.8);
 }
 
-/// Per unit of scattering coefficient: the sum of the lights through the phase function.
+glm::dvec3 ReferenceLighting::Body::ambient(const FoundMatter& found, const Arriving& light) const
+{
+  return this->medium().albedo * found.colour * light.ambient * this->powder(found, light.world);
+}
+
+/// Lights through the phase function; like the following, per unit of extinction.
 glm::dvec3 ReferenceLighting::Body::scattered(const FoundMatter& found, const Arriving& light) const
 {
   const Octaves& octaves = this->medium().octaves;
-  glm::dvec3 sum = light.ambient;
+  glm::dvec3 sum(0.0);
   double contribution = 1.0;
   double attenuation = 1.0;
   for (const PhaseModel& model : this->octaves)
@@ -242,17 +247,18 @@ glm::dvec3 ReferenceLighting::Body::scattered(const FoundMatter& found, const Ar
     contribution *= octaves.contribution;
     attenuation *= octaves.attenuation;
   }
-  return this->medium().albedo * found.colour * sum;
+  return this->medium().albedo * found.colour * sum * this->powder(found, light.world);
 }
 
-/// As scattered(), where shading takes the place of the phase function.
+/// As scattered(), where shading takes the place of the phase function: matter of the albedo's colour,
+/// and powder leaves it alone.
 glm::dvec3 ReferenceLighting::Body::shaded(const FoundMatter& found, const Arriving& light) const
 {
   using scalar::Vec3;
   const Vec3<double> gradient = to_scalar(this->matter->world_from_gradient() * found.gradient);
   const Vec3<double> viewer = to_scalar(light.toward_eye);
-  const Vec3<double> colour = to_scalar(found.colour);
-  glm::dvec3 sum = this->medium().albedo * found.colour * light.ambient;
+  const Vec3<double> colour = to_scalar(this->medium().albedo * found.colour);
+  glm::dvec3 sum(0.0);
   const auto add = [&](const ShadeModel& model, const glm::dvec3& place, const glm::dvec3& passes)
   {
     const Vec3<double> sends =
@@ -373,8 +379,9 @@ Sent ReferenceLighting::sent(const PixelRay& ray,
       light = this->arriving(ray, s, pieces, samples);
       has_arrived = true;
     }
-    result.radiance += depth * body.powder(found, light.world) *
-                       (is_shaded ? body.shaded(found, light) : body.scattered(found, light));
+    result.radiance +=
+      depth * (body.ambient(found, light) +
+                (is_shaded ? body.shaded(found, light) : body.scattered(found, light)));
   }
   result.extinction = mix.total(this->TheScene.mixture);
   return result;

@@ -263,8 +263,7 @@ TEST(LitMedia, ClassifiedMatterHasItsColourForAlbedo)
   slab.medium().powder = { true, 0.5, Powder::Form::Exponential, 2.0 };
   slab.scene.volumes[0].weight = 0.75;
   const double w = 0.75;
-  // Powder's d knows nothing of the weight.
-  const double factor = 1.0 - 0.5 * std::exp(-4.0 * -std::expm1(-sigma * 0.1));
+  const double factor = 1.0 - 0.5 * std::exp(-4.0 * -std::expm1(-w * sigma * 0.1));
   const double error = worst_of(reference,
     slab,
     glm::dvec3(w * sigma),
@@ -298,11 +297,11 @@ TEST(LitMedia, ShadedMatterIsShadowed)
       const glm::dvec3 to_light = -slab.scene.lights[0].direction;
       const glm::dvec3 half = glm::normalize(to_light - direction);
       const double facing = glm::dot(normal, to_light);
-      const double colour = ClassifiedSlab::colour(z)[c];
+      const double colour = slab.medium().albedo[c] * ClassifiedSlab::colour(z)[c];
       const double passes = std::exp(-sigma * (1.0 - z) / mu0);
       double source = colour *
         (shading.ambient * shading.ambient_light[c] +
-          slab.medium().albedo[c] * 0.5 * slab.scene.sky.radiance[c] * e2(sigma * (1.0 - z)));
+          0.5 * slab.scene.sky.radiance[c] * e2(sigma * (1.0 - z)));
       if (facing > 0.0)
       {
         source += passes *

@@ -100,6 +100,12 @@ TEST(SingleScattering, ReferenceOfASlab)
   EXPECT_LE(worst_of_all(by_reference(1e-13), cases, { 1.0, 0.8, 3.0 }), 1e-6);
 }
 
+TEST(SingleScattering, MarcherOfASlab)
+{
+  for (double s : {0.25, 0.1, 0.05, 0.02, 0.01}) { std::cout << s << "\n";
+  EXPECT_LE(worst_of_all(by_shadow_rays(s), cases, { 1.0, 0.8, 3.0 }), 1e-5); }
+}
+
 // The same slab under two suns is the sum of both.
 TEST(SingleScattering, LightsAddUp)
 {

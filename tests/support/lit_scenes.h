@@ -173,6 +173,24 @@ inline Draw by_reference(double tolerance, int most_pieces = 64)
   };
 }
 
+/// The marcher's picture with steps of `step` and shadow rays, which it takes cell by cell where it
+/// can.
+inline Draw by_shadow_rays(double step)
+{
+  return [=](const Scene& scene, int width, int height)
+  {
+    Film film(width, height);
+    MarchSettings settings;
+    settings.step = step;
+    settings.leave_error = 0.0;
+    settings.shadows = ShadowMethod::Rays;
+    Marcher marcher;
+    const MarchStatistics statistics = marcher.render(scene, settings, film);
+    EXPECT_EQ(statistics.shadows, scene.lights.empty() ? statistics.shadows : ShadowMethod::Rays);
+    return film;
+  };
+}
+
 /// What a pixel has to be.
 struct Truth
 {
