@@ -118,10 +118,10 @@ std::vector<double> SceneKey::NumbersOf(const Scene& scene, const std::vector<do
   return key;
 }
 
-std::vector<SceneKey::Place> SceneKey::PlacesOf(const Scene& scene)
+std::vector<SceneKey::Place> SceneKey::PlacesOf(const Scene& scene) const
 {
   std::vector<Place> places;
-  if (is_lit(scene))
+  if (this->WithPlaces && is_lit(scene))
   {
     for (const Light& light : scene.lights)
     {

@@ -36,8 +36,9 @@ private:
     glm::dvec3 seen[2];
   };
   static std::vector<double> NumbersOf(const Scene& scene, const std::vector<double>& more);
-  static std::vector<Place> PlacesOf(const Scene& scene);
+  std::vector<Place> PlacesOf(const Scene& scene) const;
 
+  bool WithPlaces;
   std::vector<double> Numbers;
   std::vector<Place> Places;
 };

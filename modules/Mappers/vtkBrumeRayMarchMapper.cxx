@@ -31,7 +31,8 @@ namespace
 /// alone), and steps.
 constexpr double LeaveShare = 0.25;
 constexpr double PlanShare = 0.25; // plan_effects takes this part of what it is given
-constexpr double StepShare = 0.75;
+constexpr double ShadowShare = 0.25; // of lit media
+constexpr double StepShare = 0.75;   // less what lit media take
 
 std::vector<double> NumbersOf(const brume::EffectSet& effects)
 {
@@ -48,7 +49,9 @@ std::vector<double> NumbersOf(const brume::EffectSet& effects)
 struct vtkBrumeRayMarchMapper::Internals
 {
   brume::Marcher Marcher;
-  brume::SceneKey StepKey;
+  brume::SceneKey StepKey{ false };   // steps and shadows hold for all directions of light, nearly
+  brume::SceneKey ShadowKey{ false };
+  brume::ShadowChoice Shadows;
   brume::StepChoice Choice;
   brume::SceneKey PlanKey;
   brume::EffectPlan Plan;
@@ -203,25 +206,46 @@ brume::EffectSet vtkBrumeRayMarchMapper::PlanEffects(const brume::Scene& scene)
   return this->Internal->Plan.on();
 }
 
-void vtkBrumeRayMarchMapper::ChooseShadows(brume::MarchSettings& settings) const
+bool vtkBrumeRayMarchMapper::ChooseShadows(
+  const brume::Scene& scene, bool shadows, brume::MarchSettings& settings)
 {
+  settings.shadow_step = this->ShadowSampleDistance;
   switch (this->ShadowMethod)
   {
     case NoShadows:
       settings.shadows = brume::ShadowMethod::None;
-      break;
+      return false;
     case RayShadows:
       settings.shadows = brume::ShadowMethod::Rays;
-      break;
+      return false;
+    case VolumeShadows:
+      settings.shadows = brume::ShadowMethod::Volume;
+      return false;
     case FunctionShadows:
       settings.shadows = brume::ShadowMethod::Functions;
-      break;
-    case AutomaticShadows: // the place for a choice by the tolerance
+      return false;
     default:
-      settings.shadows = brume::ShadowMethod::Volume;
       break;
   }
-  settings.shadow_step = this->ShadowSampleDistance;
+  if (!shadows)
+  {
+    settings.shadows = brume::ShadowMethod::None;
+    return false;
+  }
+  const std::vector<double> key{ this->Tolerance };
+  if (!this->Internal->ShadowKey.Holds(scene, key))
+  {
+    this->Internal->Shadows = brume::choose_shadows(this->Internal->Marcher, scene,
+      std::max(ShadowShare * this->Tolerance, 1e-9), this->NumberOfThreads);
+    this->Internal->ShadowKey.Take(scene, key);
+  }
+  settings.shadows = this->Internal->Shadows.method;
+  settings.precise_shadows = this->Internal->Shadows.precise;
+  if (!(settings.shadow_step > 0.0))
+  {
+    settings.shadow_step = this->Internal->Shadows.step;
+  }
+  return true;
 }
 
 bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& whole, brume::Film& film)
@@ -241,11 +265,15 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& whole, brume::Film& film)
   settings.threads = this->NumberOfThreads;
   settings.leave_error = LeaveShare * this->Tolerance;
   settings.jitter = this->UseJittering != 0;
-  this->ChooseShadows(settings);
+  const bool lit = brume::is_lit(scene);
+  start = std::chrono::steady_clock::now();
+  const bool chosen =
+    lit && this->ChooseShadows(scene, effects.has(brume::Effect::Shadows), settings);
   if (!plain)
   {
     brume::apply_effects(effects, settings);
   }
+  const double secondsShadows = seconds();
   if (this->AutoAdjustSampleDistances)
   {
     std::vector<double> key = NumbersOf(effects);
@@ -253,11 +281,12 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& whole, brume::Film& film)
     if (!this->Internal->StepKey.Holds(scene, key))
     {
       start = std::chrono::steady_clock::now();
-      const double share = StepShare - (brume::is_lit(scene) ? PlanShare : 0.0);
+      const double share = StepShare - (lit ? PlanShare + ShadowShare : 0.0);
       this->Internal->Choice = brume::choose_step(this->Internal->Marcher,
         scene,
         std::max(share * this->Tolerance, 1e-9),
-        this->NumberOfThreads);
+        this->NumberOfThreads,
+        settings);
       this->Internal->StepKey.Take(scene, key);
       secondsStep = seconds();
     }
@@ -286,7 +315,7 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& whole, brume::Film& film)
   statistics["mapper"] = "raymarch";
   statistics["seconds"] = march.seconds;
   statistics["seconds_prepare"] =
-    this->SecondsScene + secondsPlan + secondsStep + march.seconds_prepare;
+    this->SecondsScene + secondsPlan + secondsShadows + secondsStep + march.seconds_prepare;
   statistics["samples"] = march.samples;
   statistics["rays"] = march.rays;
   statistics["threads"] = march.threads;
@@ -302,14 +331,20 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& whole, brume::Film& film)
   if (this->AutoAdjustSampleDistances)
   {
     statistics["step_chosen_by"] = "tolerance";
-    statistics["estimated_error"] =
-      this->Internal->Choice.estimated_error + settings.leave_error;
-    statistics["tolerance_met"] = this->Internal->Choice.met;
+    const double shadows = chosen ? this->Internal->Shadows.estimated_error : 0.0;
+    statistics["estimated_error"] = this->Internal->Choice.estimated_error +
+      settings.leave_error + shadows + (lit ? this->Internal->Plan.error_bound() : 0.0);
+    statistics["tolerance_met"] =
+      this->Internal->Choice.met && (!chosen || this->Internal->Shadows.met);
   }
   else
   {
     statistics["step_chosen_by"] =
       this->LockSampleDistanceToInputSpacing ? "input spacing" : "caller";
+  }
+  if (lit)
+  {
+    statistics["shadows_chosen_by"] = chosen ? "tolerance" : "caller";
   }
   statistics["shadow_method"] = brume::shadow_method_name(march.shadows);
   statistics["shadow_step"] = march.shadow_step;

@@ -235,7 +235,8 @@ private:
 
   double FixedStep();
   brume::EffectSet PlanEffects(const brume::Scene& scene);
-  void ChooseShadows(brume::MarchSettings& settings) const;
+  /// Settles how shadows are made; returns whether by the tolerance.
+  bool ChooseShadows(const brume::Scene& scene, bool shadows, brume::MarchSettings& settings);
 
   vtkTypeBool AutoAdjustSampleDistances = 1;
   double SampleDistance = 1.0;
