@@ -49,6 +49,7 @@ std::vector<double> NumbersOf(const brume::EffectSet& effects)
 struct vtkBrumeRayMarchMapper::Internals
 {
   brume::Marcher Marcher;
+  // Steps and shadows hold for all directions of light, nearly; plans do not.
   brume::SceneKey StepKey;
   brume::StepChoice Choice;
   brume::SceneKey ShadowKey;
@@ -259,7 +260,7 @@ void vtkBrumeRayMarchMapper::ChooseStep(const brume::Scene& scene,
   {
     choice = brume::choose_step(this->Internal->Marcher, scene, tolerance, this->NumberOfThreads,
       brume::is_lit(scene) ? settings : brume::MarchSettings());
-    this->Internal->StepKey.Take(scene, key);
+    this->Internal->StepKey.Take(scene, key, false);
   }
   settings.rule = choice.rule;
   settings.step = choice.step;
@@ -333,6 +334,12 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& whole, brume::Film& film)
   {
     statistics["step_chosen_by"] =
       this->LockSampleDistanceToInputSpacing ? "input spacing" : "caller";
+  }
+  if (brume::is_lit(scene))
+  {
+    const bool chosen =
+      this->ShadowMethod == AutomaticShadows && !(this->ShadowSampleDistance > 0.0);
+    statistics["shadows_chosen_by"] = chosen ? "tolerance" : "caller";
   }
   statistics["shadow_method"] = brume::shadow_method_name(march.shadows);
   statistics["shadow_step"] = march.shadow_step;

@@ -1,9 +1,8 @@
 #include "Transport/step_control.h"
 
-#include <glm/common.hpp>
+#include "Transport/zoom.h"
+
 #include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vec4.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -24,49 +23,6 @@ double smallest_voxel_edge(const Scene& scene)
     }
   }
   return edge;
-}
-
-namespace
-{
-
-/// The same view, cut to the rectangle that the grid's box fills. The box of a camera inside it has
-/// none: the whole view then.
-glm::dmat4 zoomed_to_grid(const Scene& scene)
-{
-  const glm::dmat4 clip_from_index = scene.camera.clip_from_world *
-                                     scene.volumes[0].world_from_data *
-                                     scene.volumes[0].data_from_index;
-  glm::dvec2 lower(1e300);
-  glm::dvec2 upper(-1e300);
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    glm::dvec4 place(0.0, 0.0, 0.0, 1.0);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      place[axis] = (corner >> axis) & 1 ? scene.volumes[0].grid.upper(axis)
-                                         : scene.volumes[0].grid.lower(axis);
-    }
-    const glm::dvec4 clip = clip_from_index * place;
-    if (!(clip.w > 0.0))
-    {
-      return scene.camera.clip_from_world;
-    }
-    lower = glm::min(lower, glm::dvec2(clip) / clip.w);
-    upper = glm::max(upper, glm::dvec2(clip) / clip.w);
-  }
-  if (!(lower.x < upper.x && lower.y < upper.y))
-  {
-    return scene.camera.clip_from_world;
-  }
-  const glm::dvec2 scale = 2.0 / (upper - lower);
-  glm::dmat4 zoom(1.0);
-  zoom[0][0] = scale.x;
-  zoom[1][1] = scale.y;
-  zoom[3][0] = -0.5 * (lower.x + upper.x) * scale.x;
-  zoom[3][1] = -0.5 * (lower.y + upper.y) * scale.y;
-  return zoom * scene.camera.clip_from_world;
-}
-
 }
 
 namespace
@@ -122,7 +78,7 @@ public:
     this->Settings.refinements = 0;
     this->Settings.jitter = false;
     this->TheScene.surface_depth.clear();
-    this->TheScene.camera.clip_from_world = zoomed_to_grid(scene);
+    this->TheScene.camera.clip_from_world = zoomed_to_volumes(scene, 1);
     this->Settings.threads = threads;
     // Rays end where what is behind cannot matter to the estimate.
     this->Settings.leave_error = std::min(0.01 * tolerance, 1e-4);
@@ -297,7 +253,15 @@ StepChoice choose_step(Marcher& marcher,
   int threads,
   const MarchSettings& base)
 {
-  Probe probe(marcher, scene, tolerance, threads, base);
+  // Shadow rays would be dear here, and what bends in a light volume bends for them.
+  MarchSettings cheap = base;
+  if (base.shadows == ShadowMethod::Rays)
+  {
+    cheap.shadows = ShadowMethod::Volume;
+    cheap.shadow_step = 0.0;
+    cheap.precise_shadows = true;
+  }
+  Probe probe(marcher, scene, tolerance, threads, cheap);
   StepChoice choice;
   // In voxel edges. Light from one side bends where matter alone does not.
   double step = is_lit(scene) ? longest_lit : longest;
