@@ -25,7 +25,8 @@ class SceneKey
 public:
   /// `more`: whatever else the choice hangs on.
   bool Holds(const Scene& scene, const std::vector<double>& more) const;
-  void Take(const Scene& scene, const std::vector<double>& more);
+  /// `places`: whether lights that move end the choice.
+  void Take(const Scene& scene, const std::vector<double>& more, bool places = true);
   void Clear();
 
 private:
@@ -36,9 +37,8 @@ private:
     glm::dvec3 seen[2];
   };
   static std::vector<double> NumbersOf(const Scene& scene, const std::vector<double>& more);
-  std::vector<Place> PlacesOf(const Scene& scene) const;
+  static std::vector<Place> PlacesOf(const Scene& scene);
 
-  bool WithPlaces;
   std::vector<double> Numbers;
   std::vector<Place> Places;
 };

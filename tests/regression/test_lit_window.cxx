@@ -42,6 +42,7 @@ struct View
     mapper->SetAutoAdjustSampleDistances(0);
     mapper->SetSampleDistance(0.5);
     mapper->SetMedium(medium);
+    mapper->SetShadowMethodToVolume();
     medium->SetExtinction(4e-4, 5e-4, 6e-4); // the ball's values go to 200
     medium->SetAlbedo(0.9, 0.8, 0.9);
     medium->SetAnisotropy(0.4);

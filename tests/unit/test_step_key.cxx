@@ -137,6 +137,20 @@ TEST(SceneKey, LightsMayComeAlongWithTheCamera)
   EXPECT_FALSE(holds(then, now));
 }
 
+// Choices that hold for all directions of light are told so.
+TEST(SceneKey, PlacesOfLightsMayBeLeftOut)
+{
+  Scene then = lit_scene();
+  Scene now = then;
+  now.lights[0].direction = { 1, 0, 0 };
+  now.lights[1].position.x += 5.0;
+  SceneKey key;
+  key.Take(then, {}, false);
+  EXPECT_TRUE(key.Holds(now, {}));
+  now.lights[0].diffuse.x = 5.0;
+  EXPECT_FALSE(key.Holds(now, {}));
+}
+
 TEST(SceneKey, WithoutLitMatterLightsDoNotCount)
 {
   Scene then = lit_scene();
