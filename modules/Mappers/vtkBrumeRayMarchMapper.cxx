@@ -1,11 +1,14 @@
 #include "vtkBrumeRayMarchMapper.h"
 
 #include "march_report.h"
+#include "step_key.h"
 
+#include "Transport/effect_plan.h"
 #include "Transport/film.h"
 #include "Transport/marcher.h"
 #include "Transport/step_control.h"
 
+#include "vtkBrumeEffectPlan.h"
 #include "vtkColorTransferFunction.h"
 #include "vtkContourValues.h"
 #include "vtkImageData.h"
@@ -24,25 +27,21 @@
 namespace
 {
 
-/// What the tolerance is spent on: leaving rays early, and steps.
+/// What the tolerance is spent on: leaving rays early, effects that are left out (of lit media
+/// alone), and steps.
 constexpr double LeaveShare = 0.25;
-constexpr double StepShare = 0.75;
+constexpr double PlanShare = 0.25; // plan_effects takes this part of what it is given
+constexpr double ShadowShare = 0.25; // of lit media
+constexpr double StepShare = 0.75;   // less what lit media take
 
-/// Revisions and whatever else the choice of a step hangs on.
-std::vector<double> StepKeyOf(const brume::Scene& scene, double tolerance)
+std::vector<double> NumbersOf(const brume::EffectSet& effects)
 {
-  std::vector<double> key{ tolerance, static_cast<double>(scene.blend_mode) };
-  for (const brume::Volume& volume : scene.volumes)
+  std::vector<double> numbers;
+  for (int i = 0; i < brume::effect_count; ++i)
   {
-    key.push_back(static_cast<double>(volume.data_revision));
-    key.push_back(static_cast<double>(volume.medium_revision));
-    key.push_back(volume.shading.enabled);
+    numbers.push_back(effects.has(static_cast<brume::Effect>(i)));
   }
-  if (scene.blend_mode == brume::BlendMode::Isosurface)
-  {
-    key.insert(key.end(), scene.isosurfaces.begin(), scene.isosurfaces.end());
-  }
-  return key;
+  return numbers;
 }
 
 }
@@ -50,8 +49,12 @@ std::vector<double> StepKeyOf(const brume::Scene& scene, double tolerance)
 struct vtkBrumeRayMarchMapper::Internals
 {
   brume::Marcher Marcher;
-  std::vector<double> LastStep;
+  brume::SceneKey StepKey{ false };   // steps and shadows hold for all directions of light, nearly
+  brume::SceneKey ShadowKey{ false };
+  brume::ShadowChoice Shadows;
   brume::StepChoice Choice;
+  brume::SceneKey PlanKey;
+  brume::EffectPlan Plan;
   vtkNew<vtkContourValues> DepthPassContourValues; ///< kept for callers; nothing reads it
 };
 
@@ -76,6 +79,21 @@ void vtkBrumeRayMarchMapper::SetSampleDistance(double distance)
   if (distance != this->SampleDistance)
   {
     this->SampleDistance = distance;
+    this->Modified();
+  }
+}
+
+void vtkBrumeRayMarchMapper::SetShadowSampleDistance(double distance)
+{
+  if (!(distance >= 0.0) || !std::isfinite(distance))
+  {
+    vtkWarningMacro("ShadowSampleDistance must be a length, or 0 to have it chosen, not "
+      << distance << "; kept: " << this->ShadowSampleDistance);
+    return;
+  }
+  if (distance != this->ShadowSampleDistance)
+  {
+    this->ShadowSampleDistance = distance;
     this->Modified();
   }
 }
@@ -167,24 +185,110 @@ double vtkBrumeRayMarchMapper::FixedStep()
   return this->SpacingAdjustedSampleDistance(spacing, image->GetExtent());
 }
 
-bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& scene, brume::Film& film)
+brume::EffectSet vtkBrumeRayMarchMapper::PlanEffects(const brume::Scene& scene)
 {
+  // Without a medium pictures are VTK's: nothing that changes one is left out unless it is forced.
+  const double tolerance = brume::is_lit(scene) ? this->Tolerance : 0.0;
+  const std::map<brume::Effect, bool>& forces = this->GetEffectPlan()->GetForces();
+  std::vector<double> key{ tolerance, static_cast<double>(scene.surface_depth.empty()) };
+  for (const auto& force : forces)
+  {
+    key.push_back(static_cast<double>(force.first));
+    key.push_back(force.second);
+  }
+  if (!this->Internal->PlanKey.Holds(scene, key))
+  {
+    this->Internal->Plan = brume::plan_effects(
+      this->Internal->Marcher, scene, tolerance, forces, this->NumberOfThreads);
+    this->Internal->PlanKey.Take(scene, key);
+  }
+  this->GetEffectPlan()->SetPlan(this->Internal->Plan);
+  return this->Internal->Plan.on();
+}
+
+bool vtkBrumeRayMarchMapper::ChooseShadows(
+  const brume::Scene& scene, bool shadows, brume::MarchSettings& settings)
+{
+  settings.shadow_step = this->ShadowSampleDistance;
+  switch (this->ShadowMethod)
+  {
+    case NoShadows:
+      settings.shadows = brume::ShadowMethod::None;
+      return false;
+    case RayShadows:
+      settings.shadows = brume::ShadowMethod::Rays;
+      return false;
+    case VolumeShadows:
+      settings.shadows = brume::ShadowMethod::Volume;
+      return false;
+    case FunctionShadows:
+      settings.shadows = brume::ShadowMethod::Functions;
+      return false;
+    default:
+      break;
+  }
+  if (!shadows)
+  {
+    settings.shadows = brume::ShadowMethod::None;
+    return false;
+  }
+  const std::vector<double> key{ this->Tolerance };
+  if (!this->Internal->ShadowKey.Holds(scene, key))
+  {
+    this->Internal->Shadows = brume::choose_shadows(this->Internal->Marcher, scene,
+      std::max(ShadowShare * this->Tolerance, 1e-9), this->NumberOfThreads);
+    this->Internal->ShadowKey.Take(scene, key);
+  }
+  settings.shadows = this->Internal->Shadows.method;
+  settings.precise_shadows = this->Internal->Shadows.precise;
+  if (!(settings.shadow_step > 0.0))
+  {
+    settings.shadow_step = this->Internal->Shadows.step;
+  }
+  return true;
+}
+
+bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& whole, brume::Film& film)
+{
+  auto start = std::chrono::steady_clock::now();
+  const auto seconds = [&start]
+  { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  const brume::EffectSet effects = this->PlanEffects(whole);
+  // What VTK draws too stays as it is, unless an effect was forced.
+  const bool plain = !brume::is_lit(whole) && this->GetEffectPlan()->GetForces().empty();
+  const brume::Scene simple = plain ? brume::Scene() : brume::simplified(whole, effects);
+  const brume::Scene& scene = plain ? whole : simple;
+  const double secondsPlan = seconds();
+
   double secondsStep = 0.0;
   brume::MarchSettings settings;
   settings.threads = this->NumberOfThreads;
   settings.leave_error = LeaveShare * this->Tolerance;
   settings.jitter = this->UseJittering != 0;
+  const bool lit = brume::is_lit(scene);
+  start = std::chrono::steady_clock::now();
+  const bool chosen =
+    lit && this->ChooseShadows(scene, effects.has(brume::Effect::Shadows), settings);
+  if (!plain)
+  {
+    brume::apply_effects(effects, settings);
+  }
+  const double secondsShadows = seconds();
   if (this->AutoAdjustSampleDistances)
   {
-    const std::vector<double> key = StepKeyOf(scene, this->Tolerance);
-    if (key != this->Internal->LastStep)
+    std::vector<double> key = NumbersOf(effects);
+    key.push_back(this->Tolerance);
+    if (!this->Internal->StepKey.Holds(scene, key))
     {
-      const auto start = std::chrono::steady_clock::now();
-      this->Internal->Choice = brume::choose_step(this->Internal->Marcher, scene,
-        std::max(StepShare * this->Tolerance, 1e-9), this->NumberOfThreads);
-      this->Internal->LastStep = key;
-      secondsStep =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      start = std::chrono::steady_clock::now();
+      const double share = StepShare - (lit ? PlanShare + ShadowShare : 0.0);
+      this->Internal->Choice = brume::choose_step(this->Internal->Marcher,
+        scene,
+        std::max(share * this->Tolerance, 1e-9),
+        this->NumberOfThreads,
+        settings);
+      this->Internal->StepKey.Take(scene, key);
+      secondsStep = seconds();
     }
     settings.rule = this->Internal->Choice.rule;
     settings.step = this->Internal->Choice.step;
@@ -202,14 +306,16 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& scene, brume::Film& film)
 
   if (march.rays == 0)
   {
-    this->Internal->LastStep.clear(); // nothing was measured
+    this->Internal->StepKey.Clear(); // nothing was measured
+    this->Internal->PlanKey.Clear();
   }
 
   const bool window = this->FinalColorWindow != 1.0f || this->FinalColorLevel != 0.5f;
   nlohmann::json statistics;
   statistics["mapper"] = "raymarch";
   statistics["seconds"] = march.seconds;
-  statistics["seconds_prepare"] = this->SecondsScene + secondsStep + march.seconds_prepare;
+  statistics["seconds_prepare"] =
+    this->SecondsScene + secondsPlan + secondsShadows + secondsStep + march.seconds_prepare;
   statistics["samples"] = march.samples;
   statistics["rays"] = march.rays;
   statistics["threads"] = march.threads;
@@ -225,16 +331,28 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& scene, brume::Film& film)
   if (this->AutoAdjustSampleDistances)
   {
     statistics["step_chosen_by"] = "tolerance";
-    statistics["estimated_error"] =
-      this->Internal->Choice.estimated_error + settings.leave_error;
-    statistics["tolerance_met"] = this->Internal->Choice.met;
+    const double shadows = chosen ? this->Internal->Shadows.estimated_error : 0.0;
+    statistics["estimated_error"] = this->Internal->Choice.estimated_error +
+      settings.leave_error + shadows + (lit ? this->Internal->Plan.error_bound() : 0.0);
+    statistics["tolerance_met"] =
+      this->Internal->Choice.met && (!chosen || this->Internal->Shadows.met);
   }
   else
   {
     statistics["step_chosen_by"] =
       this->LockSampleDistanceToInputSpacing ? "input spacing" : "caller";
   }
-  statistics["effects"] = brume::effects_of(scene, settings, march, window);
+  if (lit)
+  {
+    statistics["shadows_chosen_by"] = chosen ? "tolerance" : "caller";
+  }
+  statistics["shadow_method"] = brume::shadow_method_name(march.shadows);
+  statistics["shadow_step"] = march.shadow_step;
+  statistics["light_bytes"] = march.light_bytes;
+  statistics["seconds_light"] = march.seconds_light;
+  statistics["effects"] =
+    brume::effects_of(scene, settings, march, this->Internal->Plan, window);
+  statistics["effects_error_bound"] = this->Internal->Plan.error_bound();
   statistics["ignored_settings"] = this->IgnoredSettings;
   statistics["non_finite_voxels"] = march.non_finite_voxels;
   statistics["bricks"] = march.bricks;
@@ -257,5 +375,8 @@ void vtkBrumeRayMarchMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ImageSampleDistance: " << this->ImageSampleDistance << "\n";
   os << indent << "MinimumImageSampleDistance: " << this->MinimumImageSampleDistance << "\n";
   os << indent << "MaximumImageSampleDistance: " << this->MaximumImageSampleDistance << "\n";
+  const char* const methods[] = { "automatic", "none", "rays", "volume", "functions" };
+  os << indent << "ShadowMethod: " << methods[this->ShadowMethod] << "\n";
+  os << indent << "ShadowSampleDistance: " << this->ShadowSampleDistance << "\n";
   os << indent << "UseJittering: " << (this->UseJittering ? "On" : "Off") << "\n";
 }
