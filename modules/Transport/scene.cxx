@@ -74,7 +74,10 @@ void validate(const Volume& volume)
 
 void Scene::validate() const
 {
-  require(!this->volumes.empty(), "a scene needs a volume");
+  const glm::dvec3& haze = this->fog.extinction;
+  const bool foggy = this->blend_mode == BlendMode::Composite && this->fog.enabled &&
+    (haze.x > 0.0 || haze.y > 0.0 || haze.z > 0.0);
+  require(!this->volumes.empty() || foggy, "a scene needs a volume, or fog in composite mode");
   for (const Volume& volume : this->volumes)
   {
     brume::validate(volume);
