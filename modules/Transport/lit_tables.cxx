@@ -101,13 +101,6 @@ double hottest(const Grid& grid)
 
 }
 
-bool has_fog(const Scene& scene)
-{
-  const Fog& fog = scene.fog;
-  return scene.blend_mode == BlendMode::Composite && fog.enabled &&
-    (fog.extinction.x > 0.0 || fog.extinction.y > 0.0 || fog.extinction.z > 0.0);
-}
-
 bool needs_lit_kernels(const Scene& scene)
 {
   return has_fog(scene) || (scene.blend_mode == BlendMode::Composite &&

@@ -18,8 +18,6 @@ namespace brume
 /// Whether a scene needs the kernels of lit media: there is fog, a volume's medium is lit, or a density
 /// dims R, G and B differently.
 bool needs_lit_kernels(const Scene& scene);
-/// Whether a scene has fog that is drawn.
-bool has_fog(const Scene& scene);
 
 class LitTables
 {

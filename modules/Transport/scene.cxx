@@ -1,5 +1,7 @@
 #include "Transport/scene.h"
 
+#include "Transport/fog.h"
+
 #include <glm/geometric.hpp>
 
 #include <cmath>
@@ -74,10 +76,8 @@ void validate(const Volume& volume)
 
 void Scene::validate() const
 {
-  const glm::dvec3& haze = this->fog.extinction;
-  const bool foggy = this->blend_mode == BlendMode::Composite && this->fog.enabled &&
-    (haze.x > 0.0 || haze.y > 0.0 || haze.z > 0.0);
-  require(!this->volumes.empty() || foggy, "a scene needs a volume, or fog in composite mode");
+  require(
+    !this->volumes.empty() || has_fog(*this), "a scene needs a volume, or fog in composite mode");
   for (const Volume& volume : this->volumes)
   {
     brume::validate(volume);
