@@ -43,6 +43,7 @@ struct vtkBrumeVolumeMapper::Internals
   vtkNew<vtkBrumeFilmBlender> Blender;
   brume::Film Film;
   vtkSmartPointer<vtkImageData> Mask;
+  std::vector<float> SurfaceDepth; ///< of renders without a window
   vtkRenderWindow* Window = nullptr; ///< the window being drawn into, for its abort check
   std::set<std::string> Warned;      ///< settings that were warned of
   std::map<std::pair<vtkRenderer*, vtkVolume*>, double> Seconds; ///< of pictures, by keys alone
@@ -139,7 +140,32 @@ double vtkBrumeVolumeMapper::GetSecondsOfPicture(vtkRenderer* renderer, vtkVolum
 const brume::Scene* vtkBrumeVolumeMapper::UpdateScene(
   vtkVolume* volume, vtkCamera* camera, vtkLightCollection* lights, int width, int height)
 {
-  return this->UpdateScene(volume, { camera, lights, width, height, this->TwoSidedLighting != 0 });
+  return this->WithSurfaceDepth(
+    this->UpdateScene(volume, { camera, lights, width, height, this->TwoSidedLighting != 0 }), width,
+    height);
+}
+
+void vtkBrumeVolumeMapper::SetSurfaceDepth(std::vector<float> depth)
+{
+  this->Internal->SurfaceDepth = std::move(depth);
+  this->Modified();
+}
+
+brume::Scene* vtkBrumeVolumeMapper::WithSurfaceDepth(brume::Scene* scene, int width, int height)
+{
+  const std::vector<float>& depth = this->Internal->SurfaceDepth;
+  if (!scene || depth.empty())
+  {
+    return scene;
+  }
+  if (depth.size() != static_cast<std::size_t>(width) * height)
+  {
+    vtkErrorMacro("The surfaces' depth has " << depth.size() << " pixels, and the picture "
+                                             << static_cast<std::size_t>(width) * height << ".");
+    return nullptr;
+  }
+  scene->surface_depth = depth;
+  return scene;
 }
 
 brume::Scene* vtkBrumeVolumeMapper::UpdateScene(vtkVolume* volume, const brume::ViewFromVTK& view)
@@ -238,8 +264,10 @@ bool vtkBrumeVolumeMapper::RenderUpdated(brume::Scene& scene, brume::Film& film)
 bool vtkBrumeVolumeMapper::RenderFilm(
   vtkVolume* volume, vtkCamera* camera, vtkLightCollection* lights, brume::Film& film)
 {
-  brume::Scene* scene = this->UpdateScene(
-    volume, { camera, lights, film.width, film.height, this->TwoSidedLighting != 0 });
+  brume::Scene* scene = this->WithSurfaceDepth(
+    this->UpdateScene(
+      volume, { camera, lights, film.width, film.height, this->TwoSidedLighting != 0 }),
+    film.width, film.height);
   if (!scene)
   {
     return false;
@@ -273,8 +301,10 @@ bool vtkBrumeVolumeMapper::RenderFilm(vtkVolumeCollection* volumes,
       first ? others.push_back(volume) : static_cast<void>(first = volume);
     }
   }
-  brume::Scene* scene = this->UpdateScene(
-    first, others, { camera, lights, film.width, film.height, this->TwoSidedLighting != 0 });
+  brume::Scene* scene = this->WithSurfaceDepth(
+    this->UpdateScene(
+      first, others, { camera, lights, film.width, film.height, this->TwoSidedLighting != 0 }),
+    film.width, film.height);
   if (!scene)
   {
     return false;
