@@ -5,10 +5,12 @@
 #include "Transport/sparse_voxels.h"
 
 #include "vtkBrumeSparseVolume.h"
+#include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
 #include "vtkMatrix3x3.h"
 #include "vtkMatrix4x4.h"
+#include "vtkPointData.h"
 #include "vtkVolumeMapper.h"
 #include "vtkVolumeProperty.h"
 
@@ -24,6 +26,21 @@ std::uint64_t next_revision()
 {
   static std::atomic<std::uint64_t> last{ 0 };
   return ++last;
+}
+
+std::string array_names(vtkImageData* image, bool cells)
+{
+  vtkDataSetAttributes* arrays = cells ? static_cast<vtkDataSetAttributes*>(image->GetCellData())
+                                       : static_cast<vtkDataSetAttributes*>(image->GetPointData());
+  std::string names;
+  for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
+  {
+    if (const char* name = arrays->GetArrayName(i))
+    {
+      names += (names.empty() ? "" : ", ") + std::string(name);
+    }
+  }
+  return names.empty() ? "none that has a name" : names;
 }
 
 namespace
@@ -54,17 +71,36 @@ VoxelType voxel_type(int vtkType, bool& converts)
 
 }
 
-std::string GridFromVTK::Update(vtkVolumeMapper* mapper, vtkVolumeProperty* property, int threads)
+std::string GridFromVTK::Update(vtkVolumeMapper* mapper,
+  vtkVolumeProperty* property,
+  const std::string& array,
+  int threads)
 {
   this->TheGrid.linear = property->GetInterpolationType() != VTK_NEAREST_INTERPOLATION;
   vtkDataObject* input = mapper->GetDataObjectInput();
   if (auto* sparse = vtkBrumeSparseVolume::SafeDownCast(input))
   {
-    return this->UpdateSparse(sparse, threads);
+    return array.empty() ? this->UpdateSparse(sparse, threads)
+                         : "a sparse volume has one grid and no array '" + array +
+                             "': call vtkBrumeMedium::SetDensityArrayName(nullptr)";
   }
   if (auto* image = vtkImageData::SafeDownCast(input))
   {
-    return this->UpdateImage(image, mapper, property, threads);
+    int cells = 0;
+    vtkDataArray* scalars = array.empty() ? vtkAbstractMapper::GetScalars(image,
+                                              mapper->GetScalarMode(),
+                                              mapper->GetArrayAccessMode(),
+                                              mapper->GetArrayId(),
+                                              mapper->GetArrayName(),
+                                              cells)
+                                          : image->GetPointData()->GetArray(array.c_str());
+    if (!array.empty() && !scalars)
+    {
+      return "the input's points have no array '" + array +
+             "': give vtkBrumeMedium::SetDensityArrayName one of theirs: " +
+             array_names(image, false);
+    }
+    return this->UpdateImage(image, scalars, cells == 1, property, threads);
   }
   return "there is no image data to draw: connect a vtkImageData or a vtkBrumeSparseVolume to the "
          "mapper";
@@ -110,16 +146,12 @@ std::string GridFromVTK::UpdateSparse(vtkBrumeSparseVolume* volume, int threads)
   return {};
 }
 
-std::string GridFromVTK::UpdateImage(
-  vtkImageData* image, vtkVolumeMapper* mapper, vtkVolumeProperty* property, int threads)
+std::string GridFromVTK::UpdateImage(vtkImageData* image,
+  vtkDataArray* scalars,
+  bool cells,
+  vtkVolumeProperty* property,
+  int threads)
 {
-  int cellFlag = 0;
-  vtkDataArray* scalars = vtkAbstractMapper::GetScalars(image,
-    mapper->GetScalarMode(),
-    mapper->GetArrayAccessMode(),
-    mapper->GetArrayId(),
-    mapper->GetArrayName(),
-    cellFlag);
   if (!scalars || scalars->GetNumberOfTuples() == 0)
   {
     return "the input has no scalars: name an array with SelectScalarArray and SetScalarMode";
@@ -144,7 +176,6 @@ std::string GridFromVTK::UpdateImage(
 
   int extent[6];
   image->GetExtent(extent);
-  const bool cells = cellFlag == 1;
   int dims[3];
   vtkIdType voxels = 1;
   for (int axis = 0; axis < 3; ++axis)

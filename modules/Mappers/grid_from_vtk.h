@@ -26,6 +26,9 @@ namespace brume
 /// A number that no scene of this process has had as a revision.
 std::uint64_t next_revision();
 
+/// The names of the arrays of an image's points, or of its cells, for messages.
+std::string array_names(vtkImageData* image, bool cells);
+
 class SparseVoxels;
 
 /// Reads the image of a mapper, in place where the kernels know its voxels, or its sparse volume.
@@ -33,8 +36,12 @@ class SparseVoxels;
 class GridFromVTK
 {
 public:
+  /// `array`: of the image's point data, to be read in place of the mapper's scalars; empty: those.
   /// Returns an empty string, or what is wrong and what to do.
-  std::string Update(vtkVolumeMapper* mapper, vtkVolumeProperty* property, int threads);
+  std::string Update(vtkVolumeMapper* mapper,
+    vtkVolumeProperty* property,
+    const std::string& array,
+    int threads);
 
   /// How the components are meant.
   enum class Meaning
@@ -71,8 +78,11 @@ public:
   double Direction[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
 
 private:
-  std::string UpdateImage(vtkImageData* image, vtkVolumeMapper* mapper,
-    vtkVolumeProperty* property, int threads);
+  std::string UpdateImage(vtkImageData* image,
+    vtkDataArray* scalars,
+    bool cells,
+    vtkVolumeProperty* property,
+    int threads);
   std::string UpdateSparse(vtkBrumeSparseVolume* volume, int threads);
   std::string UpdatePlace(vtkImageData* image, const int extent[6], bool cells);
   void ReadVoxels(vtkDataArray* scalars, const int dims[3], bool cells);

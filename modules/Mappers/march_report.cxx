@@ -13,9 +13,17 @@ namespace brume
 namespace
 {
 
-nlohmann::json effect(const char* name, bool on, const std::string& reason, double bound = 0.0)
+nlohmann::json effect(const char* name,
+  bool on,
+  const std::string& reason,
+  double bound = 0.0,
+  bool forced = false)
 {
-  return { { "name", name }, { "on", on }, { "reason", reason }, { "error_bound", bound } };
+  return { { "name", name },
+    { "on", on },
+    { "reason", reason },
+    { "error_bound", bound },
+    { "forced", forced } };
 }
 
 template <class Condition>
@@ -29,6 +37,17 @@ bool shades(const Scene& scene)
   const bool lit = scene.blend_mode == BlendMode::Composite ||
     scene.blend_mode == BlendMode::Isosurface || scene.blend_mode == BlendMode::Slice;
   return lit && any(scene, [](const Volume& v) { return v.shading.enabled; });
+}
+
+bool shines_unphysically(const Scene& scene)
+{
+  return any(scene,
+    [](const Volume& v)
+    {
+      const bool lining = v.medium.silver_lining.enabled && v.medium.silver_lining.strength > 0.0;
+      const bool powder = v.medium.powder.enabled && v.medium.powder.strength > 0.0;
+      return v.medium.lit && (lining || powder);
+    });
 }
 
 bool has_gradient_opacity(const Scene& scene)
@@ -77,42 +96,30 @@ bool is_radiometric(const Scene& scene, bool window_level)
 {
   const bool components = scene.volumes.size() > 1 && scene.mixture == Mixture::Components;
   return scene.blend_mode == BlendMode::Composite && !components && !window_level && !shades(scene) &&
-    !has_gradient_opacity(scene);
+    !has_gradient_opacity(scene) && !shines_unphysically(scene);
 }
 
 nlohmann::json effects_of(const Scene& scene,
   const MarchSettings& settings,
   const MarchStatistics& march,
+  const EffectPlan& plan,
   bool window_level)
 {
   const bool composite = scene.blend_mode == BlendMode::Composite;
-  const bool seen = march.visible_bricks > 0;
-  const bool density =
-    any(scene, [](const Volume& v) { return v.meaning == ValueMeaning::Density; });
-  const bool shading = shades(scene);
   const bool gradient = has_gradient_opacity(scene);
   const bool masked = any(scene, [](const Volume& v) { return v.mask.labels != nullptr; });
   const bool cropped = any(scene, [](const Volume& v) { return v.cropping.enabled; });
   const bool clipped = any(scene, [](const Volume& v) { return !v.clipping_planes.empty(); });
   const std::string mode = blend_mode_name(scene.blend_mode);
   nlohmann::json effects = nlohmann::json::array();
-  effects.push_back(effect("absorption",
-    composite && seen,
-    !composite ? "the blend mode is " + mode
-      : density ? (seen ? "the input is a density that is above 0 for values of the data"
-                        : "the input is a density that is 0 everywhere")
-      : seen    ? "the opacity function is above 0 for values of the data"
-                : "the opacity function is 0 for every value of the data"));
-  effects.push_back(effect("emission",
-    composite && seen && !density,
-    !composite  ? "the blend mode is " + mode
-      : density ? "a density absorbs and does not emit"
-                : "the transfer functions' colour is the source, as in VTK's composite mode"));
-  effects.push_back(effect("scattering",
-    false,
-    density ? "a density without a medium has none"
-            : "a vtkVolumeProperty without a medium has none: VTK's composite mode is emission and "
-              "absorption"));
+  for (const PlannedEffect& planned : plan.effects)
+  {
+    effects.push_back(effect(effect_name(planned.effect),
+      planned.on,
+      planned.reason,
+      planned.error_bound,
+      planned.forced));
+  }
   effects.push_back(effect("projection",
     !composite,
     composite ? "the blend mode is composite"
@@ -123,9 +130,6 @@ nlohmann::json effects_of(const Scene& scene,
       (scene.volumes.size() == 1                    ? " volume"
           : scene.mixture == Mixture::Components ? " components, mixed as VTK's mappers do"
                                                  : " volumes: their extinctions add up")));
-  effects.push_back(effect("gradient shading", shading,
-    shading ? "vtkVolumeProperty::Shade is on; not a physical term"
-            : "vtkVolumeProperty::Shade is off"));
   effects.push_back(effect("gradient opacity",
     gradient,
     gradient ? "the property has a function of the gradient; not a physical term"
@@ -138,10 +142,6 @@ nlohmann::json effects_of(const Scene& scene,
   effects.push_back(effect("clipping planes",
     clipped,
     clipped ? "the mapper has clipping planes" : "the mapper has no clipping planes"));
-  effects.push_back(effect("surfaces",
-    !scene.surface_depth.empty(),
-    scene.surface_depth.empty() ? "no opaque geometry is shown with the volume"
-                                : "rays end at opaque geometry"));
   effects.push_back(effect("jitter",
     settings.jitter,
     settings.jitter ? "the mapper's UseJittering is on: bands of steps become noise"
@@ -151,13 +151,9 @@ nlohmann::json effects_of(const Scene& scene,
     window_level ? "FinalColorWindow or FinalColorLevel is set; not a physical term"
                  : "FinalColorWindow is 1 and FinalColorLevel is 0.5"));
   effects.push_back(effect("leaving rays early",
-    seen,
+    march.visible_bricks > 0,
     "a ray ends when what is behind cannot change its pixel by more than the bound",
     settings.leave_error));
-  effects.push_back(effect("space leaping",
-    march.visible_bricks < march.bricks,
-    std::to_string(march.bricks - march.visible_bricks) + " of " + std::to_string(march.bricks) +
-      " bricks hold no value that can be seen"));
   return effects;
 }
 

@@ -2,6 +2,7 @@
 #ifndef march_report_h
 #define march_report_h
 
+#include "Transport/effect_plan.h"
 #include "Transport/marcher.h"
 #include "Transport/scene.h"
 
@@ -16,13 +17,14 @@ namespace brume
 std::int64_t peak_memory_bytes();
 
 /// The effects that a picture was made with and without, as a JSON list of
-/// {name, on, reason, error_bound}.
+/// {name, on, reason, error_bound, forced}: those of the plan, then what has no place in a plan.
 nlohmann::json effects_of(const Scene& scene,
   const MarchSettings& settings,
   const MarchStatistics& march,
+  const EffectPlan& plan,
   bool window_level);
 
-/// Whether nothing but physics had a part in the picture.
+/// Whether nothing but physics had a part in the picture of a scene (as it was marched).
 bool is_radiometric(const Scene& scene, bool window_level);
 
 /// The scene's blend mode as the command line calls it.

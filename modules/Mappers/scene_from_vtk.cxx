@@ -5,6 +5,8 @@
 #include "regions_from_vtk.h"
 #include "vtk_to_glm.h"
 
+#include "vtkBrumeMedium.h"
+#include "vtkBrumeSky.h"
 #include "vtkContourValues.h"
 #include "vtkImageData.h"
 #include "vtkPlane.h"
@@ -47,19 +49,46 @@ BlendMode blend_mode_from_vtk(int mode)
       return BlendMode::Composite;
   }
 }
+
+/// What the values are where they are a density; an extinction of 0 where they are classified.
+Density density_of(const MatterSettings& matter)
+{
+  Density density;
+  density.extinction = matter.extinction;
+  const glm::dvec3 own =
+    matter.medium ? to_glm(matter.medium->GetExtinction()) : glm::dvec3(0.0);
+  const double largest = std::max({ own.x, own.y, own.z });
+  if (largest > 0.0)
+  {
+    density.extinction = largest;
+    density.channels = own / largest;
+  }
+  return density;
+}
+}
+
+bool follows_medium(int blend_mode)
+{
+  return blend_mode_from_vtk(blend_mode) == BlendMode::Composite;
 }
 
 std::string SceneFromVTK::Update(vtkVolumeMapper* mapper,
   vtkVolume* volume,
   const MaskSettings& mask,
-  double extinction,
+  const MatterSettings& settings,
   const ViewFromVTK& view)
 {
+  MatterSettings matter = settings;
+  if (!follows_medium(mapper->GetBlendMode()))
+  {
+    matter.medium = nullptr;
+  }
   // Volumes are kept by component; surfaces want the heaviest first.
   std::sort(this->TheScene.volumes.begin(), this->TheScene.volumes.end(),
     [](const Volume& a, const Volume& b) { return a.grid.component < b.grid.component; });
   vtkVolumeProperty* property = volume->GetProperty(); // made if there is none
-  std::string wrong = this->Source.Update(mapper, property, view.threads);
+  const char* array = matter.medium ? matter.medium->GetDensityArrayName() : nullptr;
+  std::string wrong = this->Source.Update(mapper, property, array ? array : "", view.threads);
   if (wrong.empty() && mask.image && this->Source.GetGrid(0).sparse)
   {
     wrong = "a sparse volume cannot have a mask: call SetMaskInput(nullptr)";
@@ -68,9 +97,21 @@ std::string SceneFromVTK::Update(vtkVolumeMapper* mapper,
   {
     wrong = this->Labels.Update(mask.image, this->Source.GetGrid(0));
   }
+  if (matter.medium && matter.medium->GetBlackBody() > 0.0)
+  {
+    const char* temperatures = matter.medium->GetTemperatureArrayName();
+    wrong = !wrong.empty() ? wrong
+                           : this->Temperature.Update(mapper->GetDataObjectInput(),
+                               temperatures ? temperatures : "",
+                               this->Source.GetGrid(0));
+  }
+  else
+  {
+    this->Temperature.Clear();
+  }
   if (wrong.empty())
   {
-    wrong = this->UpdateMedia(property, mask, extinction);
+    wrong = this->UpdateMedia(property, mask, density_of(matter));
   }
   if (!wrong.empty())
   {
@@ -98,6 +139,11 @@ std::string SceneFromVTK::Update(vtkVolumeMapper* mapper,
     v.shading.enabled = v.shading.enabled && v.meaning == ValueMeaning::Classified;
     v.cropping = cropping;
     v.clipping_planes = planes;
+  }
+  wrong = this->UpdateLight(matter.medium, matter.sky);
+  if (!wrong.empty())
+  {
+    return wrong;
   }
   scene.mixture = Mixture::Components; // of one volume it means nothing
   scene.blend_mode = blend_mode_from_vtk(mapper->GetBlendMode());
@@ -128,8 +174,30 @@ std::string SceneFromVTK::Update(vtkVolumeMapper* mapper,
   return {};
 }
 
+std::string SceneFromVTK::UpdateLight(vtkBrumeMedium* medium, vtkBrumeSky* sky)
+{
+  Scene& scene = this->TheScene;
+  Medium matter;
+  if (medium)
+  {
+    medium->FillMedium(matter);
+    matter.temperature = this->Temperature.GetGrid();
+  }
+  for (Volume& volume : scene.volumes)
+  {
+    volume.medium = matter;
+  }
+  scene.sky = Sky();
+  if (!medium || !sky)
+  {
+    return {};
+  }
+  sky->FillSky(scene.sky);
+  return sky->AppendEnvironmentLights(scene.lights);
+}
+
 std::string SceneFromVTK::UpdateMedia(
-  vtkVolumeProperty* property, const MaskSettings& mask, double extinction)
+  vtkVolumeProperty* property, const MaskSettings& mask, const Density& density)
 {
   const int count = this->Source.GetNumberOfVolumes();
   // Asked first: where there is no function yet the property makes one, which modifies it.
@@ -162,7 +230,8 @@ std::string SceneFromVTK::UpdateMedia(
     this->Source.GetRevision(),
     mask.label_map,
     mask.image ? mask.blend_factor : 1.0,
-    extinction };
+    { density.extinction, density.channels.x, density.channels.y, density.channels.z },
+    this->Temperature.GetRevision() };
   if (!voxels && key == this->LastMedium)
   {
     return {};
@@ -171,10 +240,11 @@ std::string SceneFromVTK::UpdateMedia(
   const bool labels = this->DrawsLabels(property, mask);
   for (int i = 0; i < count; ++i)
   {
-    volumes[i].meaning = extinction > 0.0 ? ValueMeaning::Density : ValueMeaning::Classified;
-    volumes[i].density.extinction = extinction;
+    const bool dense = density.extinction > 0.0;
+    volumes[i].meaning = dense ? ValueMeaning::Density : ValueMeaning::Classified;
+    volumes[i].density = density;
     volumes[i].classification = Classification();
-    std::string wrong = extinction > 0.0
+    std::string wrong = dense
       ? std::string()
       : classification_from_vtk(property, this->Source, i, labels, volumes[i].classification);
     if (!wrong.empty())

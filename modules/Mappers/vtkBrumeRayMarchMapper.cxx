@@ -1,11 +1,14 @@
 #include "vtkBrumeRayMarchMapper.h"
 
 #include "march_report.h"
+#include "step_key.h"
 
+#include "Transport/effect_plan.h"
 #include "Transport/film.h"
 #include "Transport/marcher.h"
 #include "Transport/step_control.h"
 
+#include "vtkBrumeEffectPlan.h"
 #include "vtkColorTransferFunction.h"
 #include "vtkContourValues.h"
 #include "vtkImageData.h"
@@ -24,25 +27,27 @@
 namespace
 {
 
-/// What the tolerance is spent on: leaving rays early, and steps.
+/// What the tolerance is spent on: leaving rays early, effects that are left out (of lit media
+/// alone), and steps.
 constexpr double LeaveShare = 0.25;
+constexpr double PlanShare = 0.25; // plan_effects takes this part of what it is given
 constexpr double StepShare = 0.75;
 
-/// Revisions and whatever else the choice of a step hangs on.
-std::vector<double> StepKeyOf(const brume::Scene& scene, double tolerance)
+bool HasLitMedium(const brume::Scene& scene)
 {
-  std::vector<double> key{ tolerance, static_cast<double>(scene.blend_mode) };
-  for (const brume::Volume& volume : scene.volumes)
+  return std::any_of(scene.volumes.begin(),
+    scene.volumes.end(),
+    [](const brume::Volume& volume) { return volume.medium.lit; });
+}
+
+std::vector<double> NumbersOf(const brume::EffectSet& effects)
+{
+  std::vector<double> numbers;
+  for (int i = 0; i < brume::effect_count; ++i)
   {
-    key.push_back(static_cast<double>(volume.data_revision));
-    key.push_back(static_cast<double>(volume.medium_revision));
-    key.push_back(volume.shading.enabled);
+    numbers.push_back(effects.has(static_cast<brume::Effect>(i)));
   }
-  if (scene.blend_mode == brume::BlendMode::Isosurface)
-  {
-    key.insert(key.end(), scene.isosurfaces.begin(), scene.isosurfaces.end());
-  }
-  return key;
+  return numbers;
 }
 
 }
@@ -50,8 +55,10 @@ std::vector<double> StepKeyOf(const brume::Scene& scene, double tolerance)
 struct vtkBrumeRayMarchMapper::Internals
 {
   brume::Marcher Marcher;
-  std::vector<double> LastStep;
+  brume::SceneKey StepKey;
   brume::StepChoice Choice;
+  brume::SceneKey PlanKey;
+  brume::EffectPlan Plan;
   vtkNew<vtkContourValues> DepthPassContourValues; ///< kept for callers; nothing reads it
 };
 
@@ -76,6 +83,21 @@ void vtkBrumeRayMarchMapper::SetSampleDistance(double distance)
   if (distance != this->SampleDistance)
   {
     this->SampleDistance = distance;
+    this->Modified();
+  }
+}
+
+void vtkBrumeRayMarchMapper::SetShadowSampleDistance(double distance)
+{
+  if (!(distance >= 0.0) || !std::isfinite(distance))
+  {
+    vtkWarningMacro("ShadowSampleDistance must be a length, or 0 to have it chosen, not "
+      << distance << "; kept: " << this->ShadowSampleDistance);
+    return;
+  }
+  if (distance != this->ShadowSampleDistance)
+  {
+    this->ShadowSampleDistance = distance;
     this->Modified();
   }
 }
@@ -167,24 +189,78 @@ double vtkBrumeRayMarchMapper::FixedStep()
   return this->SpacingAdjustedSampleDistance(spacing, image->GetExtent());
 }
 
-bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& scene, brume::Film& film)
+brume::EffectSet vtkBrumeRayMarchMapper::PlanEffects(const brume::Scene& scene)
 {
+  // Without a medium pictures are VTK's: nothing that changes one is left out unless it is forced.
+  const double tolerance = HasLitMedium(scene) ? this->Tolerance : 0.0;
+  const std::map<brume::Effect, bool>& forces = this->GetEffectPlan()->GetForces();
+  std::vector<double> key{ tolerance, static_cast<double>(scene.surface_depth.empty()) };
+  for (const auto& force : forces)
+  {
+    key.push_back(static_cast<double>(force.first));
+    key.push_back(force.second);
+  }
+  if (!this->Internal->PlanKey.Holds(scene, key))
+  {
+    this->Internal->Plan = brume::plan_effects(
+      this->Internal->Marcher, scene, tolerance, forces, this->NumberOfThreads);
+    this->Internal->PlanKey.Take(scene, key);
+  }
+  this->GetEffectPlan()->SetPlan(this->Internal->Plan);
+  return this->Internal->Plan.on();
+}
+
+void vtkBrumeRayMarchMapper::ChooseShadows(brume::MarchSettings& settings) const
+{
+  switch (this->ShadowMethod)
+  {
+    case NoShadows:
+      settings.shadows = brume::ShadowMethod::None;
+      break;
+    case RayShadows:
+      settings.shadows = brume::ShadowMethod::Rays;
+      break;
+    case FunctionShadows:
+      settings.shadows = brume::ShadowMethod::Functions;
+      break;
+    case AutomaticShadows: // the place for a choice by the tolerance
+    default:
+      settings.shadows = brume::ShadowMethod::Volume;
+      break;
+  }
+  settings.shadow_step = this->ShadowSampleDistance;
+}
+
+bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& whole, brume::Film& film)
+{
+  auto start = std::chrono::steady_clock::now();
+  const auto seconds = [&start]
+  { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  const brume::EffectSet effects = this->PlanEffects(whole);
+  const brume::Scene scene = brume::simplified(whole, effects);
+  const double secondsPlan = seconds();
+
   double secondsStep = 0.0;
   brume::MarchSettings settings;
   settings.threads = this->NumberOfThreads;
   settings.leave_error = LeaveShare * this->Tolerance;
   settings.jitter = this->UseJittering != 0;
+  this->ChooseShadows(settings);
+  brume::apply_effects(effects, settings);
   if (this->AutoAdjustSampleDistances)
   {
-    const std::vector<double> key = StepKeyOf(scene, this->Tolerance);
-    if (key != this->Internal->LastStep)
+    std::vector<double> key = NumbersOf(effects);
+    key.push_back(this->Tolerance);
+    if (!this->Internal->StepKey.Holds(scene, key))
     {
-      const auto start = std::chrono::steady_clock::now();
-      this->Internal->Choice = brume::choose_step(this->Internal->Marcher, scene,
-        std::max(StepShare * this->Tolerance, 1e-9), this->NumberOfThreads);
-      this->Internal->LastStep = key;
-      secondsStep =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      start = std::chrono::steady_clock::now();
+      const double share = StepShare - (HasLitMedium(scene) ? PlanShare : 0.0);
+      this->Internal->Choice = brume::choose_step(this->Internal->Marcher,
+        scene,
+        std::max(share * this->Tolerance, 1e-9),
+        this->NumberOfThreads);
+      this->Internal->StepKey.Take(scene, key);
+      secondsStep = seconds();
     }
     settings.rule = this->Internal->Choice.rule;
     settings.step = this->Internal->Choice.step;
@@ -202,14 +278,16 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& scene, brume::Film& film)
 
   if (march.rays == 0)
   {
-    this->Internal->LastStep.clear(); // nothing was measured
+    this->Internal->StepKey.Clear(); // nothing was measured
+    this->Internal->PlanKey.Clear();
   }
 
   const bool window = this->FinalColorWindow != 1.0f || this->FinalColorLevel != 0.5f;
   nlohmann::json statistics;
   statistics["mapper"] = "raymarch";
   statistics["seconds"] = march.seconds;
-  statistics["seconds_prepare"] = this->SecondsScene + secondsStep + march.seconds_prepare;
+  statistics["seconds_prepare"] =
+    this->SecondsScene + secondsPlan + secondsStep + march.seconds_prepare;
   statistics["samples"] = march.samples;
   statistics["rays"] = march.rays;
   statistics["threads"] = march.threads;
@@ -234,7 +312,13 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& scene, brume::Film& film)
     statistics["step_chosen_by"] =
       this->LockSampleDistanceToInputSpacing ? "input spacing" : "caller";
   }
-  statistics["effects"] = brume::effects_of(scene, settings, march, window);
+  statistics["shadow_method"] = brume::shadow_method_name(march.shadows);
+  statistics["shadow_step"] = march.shadow_step;
+  statistics["light_bytes"] = march.light_bytes;
+  statistics["seconds_light"] = march.seconds_light;
+  statistics["effects"] =
+    brume::effects_of(scene, settings, march, this->Internal->Plan, window);
+  statistics["effects_error_bound"] = this->Internal->Plan.error_bound();
   statistics["ignored_settings"] = this->IgnoredSettings;
   statistics["non_finite_voxels"] = march.non_finite_voxels;
   statistics["bricks"] = march.bricks;
@@ -257,5 +341,8 @@ void vtkBrumeRayMarchMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ImageSampleDistance: " << this->ImageSampleDistance << "\n";
   os << indent << "MinimumImageSampleDistance: " << this->MinimumImageSampleDistance << "\n";
   os << indent << "MaximumImageSampleDistance: " << this->MaximumImageSampleDistance << "\n";
+  const char* const methods[] = { "automatic", "none", "rays", "volume", "functions" };
+  os << indent << "ShadowMethod: " << methods[this->ShadowMethod] << "\n";
+  os << indent << "ShadowSampleDistance: " << this->ShadowSampleDistance << "\n";
   os << indent << "UseJittering: " << (this->UseJittering ? "On" : "Off") << "\n";
 }

@@ -29,6 +29,12 @@ class vtkContourValues;
 class vtkRenderWindow;
 class vtkVolumeProperty;
 
+namespace brume
+{
+class EffectSet;
+struct MarchSettings;
+}
+
 class VTKBRUMEMAPPERS_EXPORT vtkBrumeRayMarchMapper : public vtkBrumeVolumeMapper
 {
 public:
@@ -41,9 +47,10 @@ public:
    * Whether the mapper looks after quality and speed. On, the default:
    *
    * - Steps are chosen by the tolerance: the cheapest, of 4 to 1/32 of the smallest voxel edge, with
-   *   which the estimated error is within three quarters of Tolerance, shorter only in the pixels
-   *   that ask for it where these are few; the choice is made from 4096 rays of the first picture's
-   *   camera and kept while data, property and tolerance stay. Off: always the midpoint rule.
+   *   which the estimated error is within three quarters of Tolerance (half of it with a medium),
+   *   shorter only in the pixels that ask for it where these are few; the choice is made from 4096
+   *   rays of the first picture's camera and kept while data, property, medium, lights and tolerance
+   *   stay. Off: always the midpoint rule.
    * - The distance between rays is chosen by the time that VTK allocates to the volume, from
    *   vtkRenderWindow::SetDesiredUpdateRate: one ray a pixel where the last picture was fast
    * enough, fewer where it was not, within MinimumImageSampleDistance and
@@ -75,6 +82,45 @@ public:
   vtkSetClampMacro(LockSampleDistanceToInputSpacing, vtkTypeBool, 0, 1);
   vtkGetMacro(LockSampleDistanceToInputSpacing, vtkTypeBool);
   vtkBooleanMacro(LockSampleDistanceToInputSpacing, vtkTypeBool);
+  ///@}
+
+  enum ShadowMethods
+  {
+    AutomaticShadows = 0,
+    NoShadows,
+    RayShadows,
+    VolumeShadows,
+    FunctionShadows
+  };
+
+  ///@{
+  /**
+   * How the light that reaches a place in a medium is found to be dimmed on its way. Without a medium
+   * it means nothing.
+   *
+   * - Automatic, the default: the cheapest that is within the tolerance.
+   * - None: matter casts no shadows.
+   * - Rays: a ray toward each light from each sample. Right, and dear.
+   * - Volume: optical depths toward each light on a grid, kept while lights and medium stay.
+   * - Functions: for each light a map of functions of depth. Little memory, soft shadows.
+   */
+  vtkSetClampMacro(ShadowMethod, int, AutomaticShadows, FunctionShadows);
+  vtkGetMacro(ShadowMethod, int);
+  void SetShadowMethodToAutomatic() { this->SetShadowMethod(AutomaticShadows); }
+  void SetShadowMethodToNone() { this->SetShadowMethod(NoShadows); }
+  void SetShadowMethodToRays() { this->SetShadowMethod(RayShadows); }
+  void SetShadowMethodToVolume() { this->SetShadowMethod(VolumeShadows); }
+  void SetShadowMethodToFunctions() { this->SetShadowMethod(FunctionShadows); }
+  ///@}
+
+  ///@{
+  /**
+   * The length of a shadow ray's step, or the distance between the nodes of a shadow volume or map,
+   * in the data's coordinates. Default 0: chosen. Values that are negative or not finite are refused
+   * with a warning.
+   */
+  virtual void SetShadowSampleDistance(double distance);
+  vtkGetMacro(ShadowSampleDistance, double);
   ///@}
 
   ///@{
@@ -188,6 +234,8 @@ private:
   void operator=(const vtkBrumeRayMarchMapper&) = delete;
 
   double FixedStep();
+  brume::EffectSet PlanEffects(const brume::Scene& scene);
+  void ChooseShadows(brume::MarchSettings& settings) const;
 
   vtkTypeBool AutoAdjustSampleDistances = 1;
   double SampleDistance = 1.0;
@@ -196,6 +244,8 @@ private:
   float MinimumImageSampleDistance = 1.0f;
   float MaximumImageSampleDistance = 10.0f;
   vtkTypeBool UseJittering = 0;
+  int ShadowMethod = AutomaticShadows;
+  double ShadowSampleDistance = 0.0;
 
   float InteractiveSampleDistance = 2.0f;
   vtkTypeBool UseDepthPass = 0;

@@ -8,6 +8,9 @@
 
 #include "Transport/film.h"
 
+#include "vtkBrumeEffectPlan.h"
+#include "vtkBrumeMedium.h"
+#include "vtkBrumeSky.h"
 #include "vtkBrumeSparseVolume.h"
 
 #include "vtkCamera.h"
@@ -44,6 +47,9 @@ struct vtkBrumeVolumeMapper::Internals
   brume::Film Film;
   vtkSmartPointer<vtkImageData> Mask;
   std::vector<float> SurfaceDepth; ///< of renders without a window
+  vtkSmartPointer<vtkBrumeMedium> Medium;
+  vtkSmartPointer<vtkBrumeSky> Sky;
+  vtkNew<vtkBrumeEffectPlan> Plan;
   vtkRenderWindow* Window = nullptr; ///< the window being drawn into, for its abort check
   std::set<std::string> Warned;      ///< settings that were warned of
   std::map<std::pair<vtkRenderer*, vtkVolume*>, double> Seconds; ///< of pictures, by keys alone
@@ -64,6 +70,53 @@ void vtkBrumeVolumeMapper::SetMaskInput(vtkImageData* mask)
     this->Internal->Mask = mask;
     this->Modified();
   }
+}
+
+void vtkBrumeVolumeMapper::SetMedium(vtkBrumeMedium* medium)
+{
+  if (this->Internal->Medium != medium)
+  {
+    this->Internal->Medium = medium;
+    this->Modified();
+  }
+}
+
+vtkBrumeMedium* vtkBrumeVolumeMapper::GetMedium()
+{
+  return this->Internal->Medium;
+}
+
+void vtkBrumeVolumeMapper::SetSky(vtkBrumeSky* sky)
+{
+  if (this->Internal->Sky != sky)
+  {
+    this->Internal->Sky = sky;
+    this->Modified();
+  }
+}
+
+vtkBrumeSky* vtkBrumeVolumeMapper::GetSky()
+{
+  return this->Internal->Sky;
+}
+
+vtkBrumeEffectPlan* vtkBrumeVolumeMapper::GetEffectPlan()
+{
+  return this->Internal->Plan;
+}
+
+vtkMTimeType vtkBrumeVolumeMapper::GetMTime()
+{
+  vtkMTimeType time = std::max(this->Superclass::GetMTime(), this->Internal->Plan->GetMTime());
+  if (this->Internal->Medium)
+  {
+    time = std::max(time, this->Internal->Medium->GetMTime());
+  }
+  if (this->Internal->Sky)
+  {
+    time = std::max(time, this->Internal->Sky->GetMTime());
+  }
+  return time;
 }
 
 int vtkBrumeVolumeMapper::FillInputPortInformation(int port, vtkInformation* info)
@@ -188,7 +241,7 @@ brume::Scene* vtkBrumeVolumeMapper::UpdateScene(vtkVolume* volume, const brume::
     wrong = this->Internal->Builder.Update(this,
       volume,
       { this->Internal->Mask, this->MaskType == LabelMapMaskType, this->MaskBlendFactor },
-      this->Extinction,
+      { this->Extinction, this->Internal->Medium, this->Internal->Sky },
       own);
   }
   catch (const std::bad_alloc&)
@@ -223,11 +276,18 @@ brume::Scene* vtkBrumeVolumeMapper::UpdateScene(vtkVolume* first,
   brume::Scene& together = this->Internal->Together;
   together = *scene;
   together.mixture = brume::Mixture::Sum;
+  bool sky = this->Internal->Medium && this->Internal->Sky;
   for (vtkVolume* volume : others)
   {
     auto* mapper = vtkBrumeVolumeMapper::SafeDownCast(volume->GetMapper());
     if (brume::Scene* other = mapper->UpdateScene(volume, view))
     {
+      if (!sky && mapper->Internal->Medium && mapper->Internal->Sky)
+      {
+        together.sky = other->sky;
+        together.lights = other->lights; // the environment's among them
+        sky = true;
+      }
       together.volumes.insert(together.volumes.end(), other->volumes.begin(), other->volumes.end());
       this->SecondsScene += mapper->SecondsScene;
     }
@@ -382,6 +442,14 @@ void vtkBrumeVolumeMapper::WarnOfIgnoredSettings(vtkVolume* volume, int componen
   this->IgnoredSettings = brume::ignored_settings(volume,
     { this->Internal->Mask, this->MaskType == LabelMapMaskType, this->MaskBlendFactor },
     components);
+  if (this->Internal->Medium && !brume::follows_medium(this->BlendMode))
+  {
+    this->IgnoredSettings.emplace_back("Medium in a blend mode other than composite");
+  }
+  if (this->Internal->Sky && !this->Internal->Medium)
+  {
+    this->IgnoredSettings.emplace_back("Sky without a Medium");
+  }
   this->AppendIgnoredSettings(volume, this->IgnoredSettings);
   for (const std::string& setting : this->IgnoredSettings)
   {
@@ -539,6 +607,10 @@ void vtkBrumeVolumeMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent
      << "IntermixIntersectingGeometry: " << (this->IntermixIntersectingGeometry ? "On" : "Off")
      << "\n";
+  os << indent << "Medium: " << this->Internal->Medium << "\n";
+  os << indent << "Sky: " << this->Internal->Sky << "\n";
+  os << indent << "EffectPlan:\n";
+  this->Internal->Plan->PrintSelf(os, indent.GetNextIndent());
   os << indent << "MaskInput: " << this->Internal->Mask << "\n";
   os << indent << "MaskType: " << this->MaskType << "\n";
   os << indent << "MaskBlendFactor: " << this->MaskBlendFactor << "\n";

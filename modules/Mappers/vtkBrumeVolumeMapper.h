@@ -37,6 +37,9 @@
 #include <string> // for std::string
 #include <vector> // for std::vector
 
+class vtkBrumeEffectPlan;
+class vtkBrumeMedium;
+class vtkBrumeSky;
 class vtkCamera;
 class vtkImageData;
 class vtkLightCollection;
@@ -169,13 +172,45 @@ public:
   ///@{
   /**
    * Extinction coefficient per unit of length and of value, for input that is a density of matter:
-   * the property's functions are not read then, values below 0 count as 0, and the matter absorbs
-   * and does not emit. Default 0: values are classified by the property. Negative values are set to
-   * 0. One component only.
+   * the property's functions are not read then, values below 0 count as 0, and without a medium the
+   * matter absorbs and does not emit. Default 0: values are classified by the property. Negative
+   * values are set to 0. One component only.
    */
   vtkSetClampMacro(Extinction, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Extinction, double);
   ///@}
+
+  ///@{
+  /**
+   * What the matter does with light: it then scatters the light of the renderer's lights and of the
+   * sky, and may glow. With an Extinction of the medium the values are a density of that, in place of
+   * this mapper's Extinction; else they are what they are without it, and classified ones have their
+   * colour as a factor of the albedo. Composite mode alone: in others a medium is ignored with a
+   * warning. Default null: a classified volume sends its colour, a density absorbs.
+   */
+  virtual void SetMedium(vtkBrumeMedium* medium);
+  vtkBrumeMedium* GetMedium();
+  ///@}
+
+  ///@{
+  /**
+   * Light from all around, for the medium; without one it is ignored with a warning. Of volumes that
+   * are drawn as one, the sky of the first that has one lights all. Default null: none.
+   */
+  virtual void SetSky(vtkBrumeSky* sky);
+  vtkBrumeSky* GetSky();
+  ///@}
+
+  /**
+   * Which effects the last picture simulated, and why, and what is forced for the next ones. Never
+   * null.
+   */
+  vtkBrumeEffectPlan* GetEffectPlan();
+
+  /**
+   * The latest change of the mapper, its medium, its sky and what its plan is forced to.
+   */
+  vtkMTimeType GetMTime() override;
 
   /**
    * The bounds of the input, an image or a sparse volume, in its own coordinates.

@@ -3,6 +3,8 @@
 #include "checked_values.h"
 #include "phase_lobes.h"
 
+#include "Transport/black_body.h"
+
 #include "vtkObjectFactory.h"
 
 vtkStandardNewMacro(vtkBrumeMedium);
@@ -58,7 +60,12 @@ void vtkBrumeMedium::SetBlackBody(double amount)
 
 void vtkBrumeMedium::SetBlackBodyReference(double kelvin)
 {
-  brume::set_value(this, "BlackBodyReference", this->BlackBodyReference, kelvin, 100.0, 1e5);
+  brume::set_value(this,
+    "BlackBodyReference",
+    this->BlackBodyReference,
+    kelvin,
+    brume::coldest_black_body_reference,
+    brume::hottest_black_body);
 }
 
 void vtkBrumeMedium::SetTemperatureScale(double kelvin)

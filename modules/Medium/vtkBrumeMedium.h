@@ -112,7 +112,7 @@ public:
 
   ///@{
   /**
-   * The temperature whose black body has the luminance 1, in kelvin. Default 1500. Range 100 to
+   * The temperature whose black body has the luminance 1, in kelvin. Default 1500. Range 800 to
    * 100 000; values outside are clamped.
    */
   void SetBlackBodyReference(double kelvin);

@@ -1,0 +1,25 @@
+// Pictures of light from all around, from files. Internal to IO.
+#ifndef environment_io_h
+#define environment_io_h
+
+#include <string>
+#include <vector>
+
+namespace brume::io
+{
+
+struct EnvironmentPicture
+{
+  int width = 0;
+  int height = 0;
+  std::vector<float> rgb; ///< R, G, B, linear, rows from the bottom up
+};
+
+/// Reads a latitude–longitude picture of linear light (OpenEXR, Radiance HDR, or what else
+/// OpenImageIO reads as floating point). Throws std::runtime_error, "PATH: what is wrong: what to
+/// do": no such file, no picture, 8 or 16 bits a channel, no R, G, B, not twice as wide as high.
+EnvironmentPicture read_environment(const std::string& path);
+
+}
+
+#endif
