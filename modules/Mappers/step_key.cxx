@@ -57,13 +57,6 @@ void add(std::vector<double>& key, const Medium& medium)
       powder.scale });
 }
 
-bool is_lit(const Scene& scene)
-{
-  return scene.fog.enabled || std::any_of(scene.volumes.begin(),
-                                scene.volumes.end(),
-                                [](const Volume& volume) { return volume.medium.lit; });
-}
-
 /// Along the picture's axes and into it, whatever the near and the far plane.
 glm::dvec3 seen_by(const Camera& camera, const glm::dvec4& place)
 {
@@ -76,6 +69,13 @@ bool same(const glm::dvec3& a, const glm::dvec3& b)
   return glm::length(a - b) <= 1e-6 * std::max(glm::length(a), glm::length(b));
 }
 
+}
+
+bool is_lit(const Scene& scene)
+{
+  return scene.fog.enabled || std::any_of(scene.volumes.begin(),
+                                scene.volumes.end(),
+                                [](const Volume& volume) { return volume.medium.lit; });
 }
 
 std::vector<double> SceneKey::NumbersOf(const Scene& scene, const std::vector<double>& more)

@@ -11,6 +11,9 @@
 namespace brume
 {
 
+/// Whether the scene has what lights shine through: a lit medium, or fog.
+bool is_lit(const Scene& scene);
+
 /// Whether a choice that was made for a scene still holds for another.
 ///
 /// It does while voxels, classification, media, blend mode, shading, sky, fog and the colours of

@@ -33,13 +33,6 @@ constexpr double LeaveShare = 0.25;
 constexpr double PlanShare = 0.25; // plan_effects takes this part of what it is given
 constexpr double StepShare = 0.75;
 
-bool HasLitMedium(const brume::Scene& scene)
-{
-  return std::any_of(scene.volumes.begin(),
-    scene.volumes.end(),
-    [](const brume::Volume& volume) { return volume.medium.lit; });
-}
-
 std::vector<double> NumbersOf(const brume::EffectSet& effects)
 {
   std::vector<double> numbers;
@@ -192,7 +185,7 @@ double vtkBrumeRayMarchMapper::FixedStep()
 brume::EffectSet vtkBrumeRayMarchMapper::PlanEffects(const brume::Scene& scene)
 {
   // Without a medium pictures are VTK's: nothing that changes one is left out unless it is forced.
-  const double tolerance = HasLitMedium(scene) ? this->Tolerance : 0.0;
+  const double tolerance = brume::is_lit(scene) ? this->Tolerance : 0.0;
   const std::map<brume::Effect, bool>& forces = this->GetEffectPlan()->GetForces();
   std::vector<double> key{ tolerance, static_cast<double>(scene.surface_depth.empty()) };
   for (const auto& force : forces)
@@ -237,7 +230,10 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& whole, brume::Film& film)
   const auto seconds = [&start]
   { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   const brume::EffectSet effects = this->PlanEffects(whole);
-  const brume::Scene scene = brume::simplified(whole, effects);
+  // What VTK draws too stays as it is, unless an effect was forced.
+  const bool plain = !brume::is_lit(whole) && this->GetEffectPlan()->GetForces().empty();
+  const brume::Scene simple = plain ? brume::Scene() : brume::simplified(whole, effects);
+  const brume::Scene& scene = plain ? whole : simple;
   const double secondsPlan = seconds();
 
   double secondsStep = 0.0;
@@ -246,7 +242,10 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& whole, brume::Film& film)
   settings.leave_error = LeaveShare * this->Tolerance;
   settings.jitter = this->UseJittering != 0;
   this->ChooseShadows(settings);
-  brume::apply_effects(effects, settings);
+  if (!plain)
+  {
+    brume::apply_effects(effects, settings);
+  }
   if (this->AutoAdjustSampleDistances)
   {
     std::vector<double> key = NumbersOf(effects);
@@ -254,7 +253,7 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& whole, brume::Film& film)
     if (!this->Internal->StepKey.Holds(scene, key))
     {
       start = std::chrono::steady_clock::now();
-      const double share = StepShare - (HasLitMedium(scene) ? PlanShare : 0.0);
+      const double share = StepShare - (brume::is_lit(scene) ? PlanShare : 0.0);
       this->Internal->Choice = brume::choose_step(this->Internal->Marcher,
         scene,
         std::max(share * this->Tolerance, 1e-9),

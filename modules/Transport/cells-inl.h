@@ -98,6 +98,12 @@ public:
     return index;
   }
 
+  /// A way further than `position`, and further than rounding would let it stand still.
+  HWY_INLINE Real onward(Real position, Real way) const
+  {
+    return max(position + way, position + Least);
+  }
+
 private:
   static HWY_INLINE Real invert(Real delta)
   {

@@ -8,8 +8,7 @@
 #include <hwy/highway.h>
 
 #include "Transport/leap-inl.h"
-#include "Transport/lookup-inl.h"
-#include "Transport/surface-inl.h"
+#include "Transport/matter-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace brume
@@ -17,122 +16,32 @@ namespace brume
 namespace HWY_NAMESPACE
 {
 
-/// One volume of a mixture at one position.
-class MixtureVolume
+/// The optical depth of a volume's stretch around a position, and its source.
+HWY_INLINE Real source(const MatterVolume& volume,
+  const Line& line,
+  Real position,
+  Real length,
+  Mask active,
+  Vec3<Real>& colour)
 {
-public:
-  MixtureVolume(const VolumeTask& volume, double step)
-    : Volume(volume)
-    , Functions(field_functions(volume.field))
-    , DepthScale(static_cast<float>(step) *
-                 (volume.meaning == ValueMeaning::Density ? volume.extinction : volume.weight))
+  const Real zero = hn::Zero(float_tag);
+  const VolumeTask& task = volume.volume();
+  colour = { zero, zero, zero };
+  Matter matter;
+  volume.look(line, position, length, active, matter);
+  if (task.meaning == ValueMeaning::Density || hn::AllFalse(float_tag, matter.depth > zero))
   {
-    if (volume.masked)
-    {
-      LabelFunctions = field_functions(volume.labels);
-    }
-    for (int c = 0; c < 3 && volume.colour != VoxelColour::Value; ++c)
-    {
-      ColourFunctions[c] = field_functions(volume.colours[c]);
-    }
+    return matter.depth;
   }
-
-  const VisibleBricks* bricks() const { return Volume.bricks; }
-
-  /// Optical depth of a stretch of `length` steps around a position, and its source.
-  HWY_INLINE Real
-  depth(const Line& line, Real position, Real length, Mask active, Vec3<Real>& colour) const
+  colour = volume.colour(line, position, matter);
+  if (task.shade.enabled)
   {
-    const Real zero = hn::Zero(float_tag);
-    Real value;
-    Functions.values(Volume.field, line, &position, 1, &value);
-    colour = { zero, zero, zero };
-    const Real scale = hn::IfThenElseZero(active, length * real(DepthScale));
-    if (Volume.meaning == ValueMeaning::Density)
-    {
-      return hn::Min(clamp(value, zero, real(1e30f)) * scale, real(1e30f));
-    }
-    const Lookup table(*Volume.table);
-    Vec3<Real> gradient{ zero, zero, zero };
-    Classified matter;
-    Lookup::Place place;
-    Int first = hn::Zero(int_tag);
-    Mask shown = active;
-    if (Volume.masked)
-    {
-      first = first_node(line, position);
-      shown = hn::And(shown, hn::RebindMask(float_tag, first > integer(-1)));
-      first = hn::Max(first, hn::Zero(int_tag));
-    }
-    if (Volume.table->columns > 0)
-    {
-      Functions.gradient(Volume.field, line.at(position), gradient);
-      matter = table.at_value_and_gradient(value, gradient_magnitude(Volume, gradient));
-    }
-    else
-    {
-      place = table.locate(table.position(value), first);
-      matter.extinction = table.extinction(place);
-    }
-    matter.extinction = hn::IfThenElseZero(shown, matter.extinction);
-    Real depth = matter.extinction * scale;
-    if (hn::AllFalse(float_tag, depth > zero))
-    {
-      return depth;
-    }
-    colour = Volume.colour != VoxelColour::Value ? voxel_colour(table, line, position)
-      : Volume.table->columns > 0                ? matter.colour
-                                                 : table.colour(place);
-    if (Volume.needs_gradient)
-    {
-      if (Volume.table->columns == 0)
-      {
-        Functions.gradient(Volume.field, line.at(position), gradient);
-      }
-      if (!Volume.table->gradient_factor.empty())
-      {
-        depth = depth * table.gradient_factor(gradient_magnitude(Volume, gradient), first);
-      }
-      if (Volume.shade.enabled)
-      {
-        const Vec3<Real> viewer = toward_viewer(Volume.shade, line);
-        colour = shaded(Volume.shade, line, viewer, position, gradient, colour);
-      }
-    }
-    return depth;
+    volume.find_gradient(line, position, matter);
+    const Vec3<Real> viewer = toward_viewer(task.shade, line);
+    colour = shaded(task.shade, line, viewer, position, matter.gradient, colour);
   }
-
-private:
-  /// For each lane the first node of its label's classification, or −1.
-  HWY_INLINE Int first_node(const Line& line, Real position) const
-  {
-    Real label;
-    LabelFunctions.values(Volume.labels, line, &position, 1, &label);
-    return hn::GatherIndex(int_tag, Volume.first_node.data(), hn::ConvertTo(int_tag, label));
-  }
-
-  HWY_INLINE Vec3<Real> voxel_colour(const Lookup& table, const Line& line, Real position) const
-  {
-    Real component[3];
-    const int count = Volume.colour == VoxelColour::RGB ? 3 : 1;
-    for (int c = 0; c < count; ++c)
-    {
-      ColourFunctions[c].values(Volume.colours[c], line, &position, 1, &component[c]);
-    }
-    if (Volume.colour == VoxelColour::First)
-    {
-      return table.colour(table.locate(table.position(component[0])));
-    }
-    const Real scale = real(1.0f / 255.0f);
-    return { component[0] * scale, component[1] * scale, component[2] * scale };
-  }
-
-  const VolumeTask& Volume;
-  FieldFunctions Functions;
-  FieldFunctions LabelFunctions{};
-  FieldFunctions ColourFunctions[3]{};
-  float DepthScale;
-};
+  return matter.depth;
+}
 
 class MixtureIntegrator
 {
@@ -171,7 +80,7 @@ public:
       const Real middle = (begin + finish) * real(0.5f);
       if (CanLeap && look % samples_between_leaps == 0)
       {
-        const Real way = leap(rays, middle);
+        const Real way = leap_all(*Task.volumes, rays, middle);
         const Mask leaping = hn::And(active, way > zero);
         if (!hn::AllFalse(float_tag, leaping))
         {
@@ -192,8 +101,8 @@ public:
         }
         samples += hn::CountTrue(float_tag, inside);
         Vec3<Real> colour;
-        const Real part =
-          Volumes[k].depth(rays.lines[k], middle, (finish - begin) * rays.scale[k], inside, colour);
+        const Real length = (finish - begin) * rays.scale[k];
+        const Real part = source(Volumes[k], rays.lines[k], middle, length, inside, colour);
         depth = depth + part;
         squares = hn::MulAdd(part, part, squares);
         light = light + colour * part;
@@ -228,21 +137,8 @@ public:
   }
 
 private:
-  /// Steps through which no volume can be seen.
-  HWY_INLINE Real leap(const Rays& rays, Real position) const
-  {
-    Real way = real(std::numeric_limits<float>::max());
-    for (std::size_t k = 0; k < Volumes.size(); ++k)
-    {
-      const Leaper leaper(Volumes[k].bricks(), rays.lines[k]);
-      const Real here = leaper.leaps() ? leaper.way(position) : hn::Zero(float_tag);
-      way = hn::IfThenElse(rays.inside[k] > hn::Zero(float_tag), hn::Min(way, here), way);
-    }
-    return hn::Min(way, rays.end);
-  }
-
   const MarchTask& Task;
-  std::vector<MixtureVolume> Volumes;
+  std::vector<MatterVolume> Volumes;
   bool CanLeap = false;
 };
 

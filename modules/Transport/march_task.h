@@ -23,6 +23,7 @@ struct VolumeTask
   FieldView field;
   const VisibleBricks* bricks = nullptr; ///< null: nothing to leap over
   float extinction = 1.0f; ///< density grids: per unit of density and of the data's length
+  float largest = 0.0f;    ///< density grids: value
   float weight = 1.0f;     ///< classified grids: a factor on the table's extinction
 
   const LookupTable* table = nullptr; ///< classified grids
@@ -55,9 +56,12 @@ struct VolumeTask
   float slice[4] = { 0, 0, 0, 0 }; ///< the plane in index space
 };
 
+struct LitTask;
+
 struct MarchTask
 {
   const std::vector<VolumeTask>* volumes = nullptr;
+  const LitTask* lit = nullptr; ///< of lit media
   const RayMaker* rays = nullptr;
   StepRule rule = StepRule::Midpoint;
   Mixture mixture = Mixture::Sum;
@@ -85,6 +89,8 @@ struct MarchCount
 MarchCount march_density(const MarchTask& task);   ///< one grid of densities
 MarchCount march_composite(const MarchTask& task); ///< one classified grid
 MarchCount march_mixture(const MarchTask& task);   ///< any number of volumes, masks, colours
+MarchCount march_lit_density(const MarchTask& task); ///< one grid of densities, lit
+MarchCount march_lit_mixture(const MarchTask& task); ///< any volumes, some of them lit
 MarchCount march_extreme(const MarchTask& task);   ///< MaximumIntensity, MinimumIntensity
 MarchCount march_mean(const MarchTask& task);      ///< AverageIntensity
 MarchCount march_sum(const MarchTask& task);       ///< Additive

@@ -1,5 +1,6 @@
 #include "Transport/marcher.h"
 
+#include "Transport/lit_tables.h"
 #include "Transport/march_task.h"
 #include "Transport/mode_tables.h"
 #include "Transport/shading.h"
@@ -61,7 +62,13 @@ Integrator find_integrator(const Scene& scene)
     case BlendMode::Slice:
       return march_slice;
   }
-  if (scene.volumes.size() > 1 || !is_plain(scene.volumes[0]))
+  const bool plain = scene.volumes.size() == 1 && is_plain(scene.volumes[0]);
+  if (needs_lit_kernels(scene))
+  {
+    return plain && scene.volumes[0].meaning == ValueMeaning::Density ? march_lit_density
+                                                                      : march_lit_mixture;
+  }
+  if (!plain)
   {
     return march_mixture;
   }
@@ -107,8 +114,8 @@ double smallest_voxel_edge(const std::vector<Volume>& volumes)
 bool follows_rule(const Scene& scene, StepRule rule)
 {
   const Volume& volume = scene.volumes[0];
-  const bool plain =
-    scene.volumes.size() == 1 && is_plain(volume) && scene.blend_mode == BlendMode::Composite;
+  const bool plain = scene.volumes.size() == 1 && is_plain(volume) &&
+    scene.blend_mode == BlendMode::Composite && !needs_lit_kernels(scene);
   switch (rule)
   {
     case StepRule::Midpoint:
@@ -119,6 +126,13 @@ bool follows_rule(const Scene& scene, StepRule rule)
       return plain && volume.meaning == ValueMeaning::Density;
   }
   return false;
+}
+
+/// Whether matter sends light by itself, whatever its extinction.
+bool emits(const Volume& volume)
+{
+  return volume.medium.lit &&
+    (volume.medium.emission != glm::dvec3(0.0) || volume.medium.black_body > 0.0);
 }
 
 /// What is kept of one volume.
@@ -136,7 +150,7 @@ public:
       this->HaveMedium = false;
     }
     if (this->HaveMedium && this->MediumRevision == volume.medium_revision &&
-        volume.medium_revision != 0 && this->Mode.serve(scene))
+        volume.medium_revision != 0 && this->Emits == emits(volume) && this->Mode.serve(scene))
     {
       return;
     }
@@ -147,16 +161,17 @@ public:
       this->Table = make_lookup_table(volume.classification, volume.label_classifications);
     }
     this->Mode.update(scene, volume, *this->Ranges, this->Table);
-    const bool any = volume.weight > 0.0;
+    const bool any = volume.weight > 0.0 && (volume.density.extinction > 0.0 || emits(volume));
     this->Visible = find_visible_bricks(
       *this->Ranges,
       [&](float lower, float upper)
       {
         return classified ? this->Mode.can_show(scene, volume, this->Table, lower, upper)
-                          : any && upper > 0.0f && volume.density.extinction > 0.0;
+                          : any && upper > 0.0f;
       },
       this->empty_value(volume));
     this->MediumRevision = volume.medium_revision;
+    this->Emits = emits(volume);
     this->HaveMedium = true;
   }
 
@@ -173,6 +188,7 @@ public:
     if (volume.meaning == ValueMeaning::Density)
     {
       task.extinction = static_cast<float>(volume.density.extinction * volume.weight);
+      task.largest = std::max(0.0f, this->Ranges->upper);
       return task;
     }
     task.table = &this->Table;
@@ -235,6 +251,7 @@ private:
   std::shared_ptr<const BrickRanges> Ranges;
   bool HaveMedium = false;
   std::uint64_t MediumRevision = 0;
+  bool Emits = false;
   LookupTable Table;
   ModeTables Mode;
   VisibleBricks Visible;
@@ -243,6 +260,7 @@ private:
 struct Marcher::Cache
 {
   std::vector<VolumeCache> volumes;
+  LitTables lit;
 
   void update(const Scene& scene, int threads)
   {
@@ -322,12 +340,28 @@ MarchStatistics Marcher::render(
   {
     const VolumeCache& kept = this->Kept->volumes[k];
     volumes.push_back(kept.task(scene, scene.volumes[k]));
+    if (!settings.leaping)
+    {
+      volumes.back().bricks = nullptr;
+    }
     brightest = std::max(brightest, kept.brightest(volumes.back()));
     statistics.non_finite_voxels += kept.ranges().non_finite_voxels;
     statistics.bricks += kept.ranges().size();
     visible_bricks += kept.visible().visible;
   }
   MarchTask common;
+  if (needs_lit_kernels(scene))
+  {
+    const auto start_light = std::chrono::steady_clock::now();
+    LitTables& lit = this->Kept->lit;
+    lit.update(scene, settings, volumes, threads);
+    statistics.seconds_light = seconds_since(start_light);
+    statistics.shadows = lit.task().shadows;
+    statistics.shadow_step = lit.shadow_step();
+    statistics.light_bytes = lit.bytes();
+    brightest = std::max(brightest, lit.brightest());
+    common.lit = &lit.task();
+  }
   common.volumes = &volumes;
   common.rays = &rays;
   common.rule = follows_rule(scene, settings.rule) ? settings.rule : StepRule::Midpoint;
@@ -419,6 +453,22 @@ MarchStatistics Marcher::render(
   const std::string targets = simd_targets();
   statistics.simd = targets.substr(0, targets.find(' '));
   return statistics;
+}
+
+const char* shadow_method_name(ShadowMethod method)
+{
+  switch (method)
+  {
+    case ShadowMethod::None:
+      return "none";
+    case ShadowMethod::Rays:
+      return "rays";
+    case ShadowMethod::Volume:
+      return "volume";
+    case ShadowMethod::Functions:
+      return "functions";
+  }
+  return "";
 }
 
 const char* step_rule_name(StepRule rule)

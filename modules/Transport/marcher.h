@@ -69,8 +69,12 @@ struct MarchSettings
   /// Of lit media.
   ShadowMethod shadows = ShadowMethod::Volume;
   /// Length of a shadow ray's step, or distance between the nodes of a light volume or a shadow
-  /// map, in the data's units; 0: one voxel edge.
+  /// map, in the data's units. 0: one voxel edge; rays through one density then go cell by cell, which
+  /// is exact.
   double shadow_step = 0.0;
+  /// Light volumes of 32-bit floats in place of 16 bits (of which each is 20 / 65535 of optical depth
+  /// or less).
+  bool precise_shadows = false;
   /// Whether the media dim what is behind them (Effect::Absorption), and whether bricks that hold
   /// nothing are leapt over. Other effects are left out by leaving them out of the scene
   /// (effect_plan.h).

@@ -187,6 +187,13 @@ HWY_INLINE Vec3<Real> multiply(const float* m, int stride, const Vec3<Real>& v)
     dot(broadcast3<Real>(m + 2 * stride), v) };
 }
 
+/// A row-major 3 × 4 matrix times the place v.
+HWY_INLINE Vec3<Real> transform(const float* m, const Vec3<Real>& v)
+{
+  const Vec3<Real> turned = multiply(m, 4, v);
+  return { turned.x + real(m[3]), turned.y + real(m[7]), turned.z + real(m[11]) };
+}
+
 /// A sum that keeps the digits a plain one would lose (Kahan, Further remarks on reducing
 /// truncation errors, 1965). value() − lost() is right to about one unit in the last place.
 struct Sum

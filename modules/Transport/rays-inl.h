@@ -16,6 +16,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <type_traits>
 
 HWY_BEFORE_NAMESPACE();
 namespace brume
@@ -60,6 +61,9 @@ struct Gathered
     , left(hn::FirstN(float_tag, 0))
   {
   }
+
+  /// The optical depth of a channel.
+  HWY_INLINE const Sum& depth_of(int) const { return optical_depth; }
 
   /// To be called at each position with what passes there.
   HWY_INLINE void note_half_way(Mask crossed, const Rays& rays, Real position)
@@ -371,20 +375,26 @@ private:
 };
 
 /// Writes what a packet gathered to the film. `depth_scale` makes optical depths of the sums.
-inline void store(const MarchTask& task,
+template <class Record>
+void store(const MarchTask& task,
   const PacketRays& packet,
   Mask met,
-  const Gathered& gathered,
+  const Record& gathered,
   double depth_scale)
 {
+  constexpr int channels = std::is_same_v<Record, Gathered> ? 1 : 3;
   HWY_ALIGN float channel[3][lane_count];
-  HWY_ALIGN float depth[lane_count], lost[lane_count], half_way[lane_count], hit[lane_count];
+  HWY_ALIGN float depth[channels][lane_count], lost[channels][lane_count];
+  HWY_ALIGN float half_way[lane_count], hit[lane_count];
   HWY_ALIGN float left[lane_count], error[lane_count];
   hn::Store(gathered.radiance.x, float_tag, channel[0]);
   hn::Store(gathered.radiance.y, float_tag, channel[1]);
   hn::Store(gathered.radiance.z, float_tag, channel[2]);
-  hn::Store(gathered.optical_depth.total, float_tag, depth);
-  hn::Store(gathered.optical_depth.lost, float_tag, lost);
+  for (int c = 0; c < channels; ++c)
+  {
+    hn::Store(gathered.depth_of(c).total, float_tag, depth[c]);
+    hn::Store(gathered.depth_of(c).lost, float_tag, lost[c]);
+  }
   hn::Store(gathered.half_way, float_tag, half_way);
   hn::Store(gathered.error, float_tag, error);
   hn::Store(hn::IfThenElseZero(met, real(1.0f)), float_tag, hit);
@@ -398,15 +408,19 @@ inline void store(const MarchTask& task,
     }
     const std::size_t pixel =
       static_cast<std::size_t>(packet.pixel_y(lane)) * film.width + packet.pixel_x(lane);
-    double optical_depth = (double(depth[lane]) - double(lost[lane])) * depth_scale;
-    if (!std::isfinite(optical_depth))
-    {
-      // Densities near the end of float's range: their sum overflowed, and nothing passes.
-      optical_depth = std::numeric_limits<double>::infinity();
-    }
-    const float transmittance = static_cast<float>(transmittance_from_optical_depth(optical_depth));
+    float transmittance = 1.0f;
     for (int c = 0; c < 3; ++c)
     {
+      if (c < channels)
+      {
+        double optical_depth = (double(depth[c][lane]) - double(lost[c][lane])) * depth_scale;
+        if (!std::isfinite(optical_depth))
+        {
+          // Densities near the end of float's range: their sum overflowed, and nothing passes.
+          optical_depth = std::numeric_limits<double>::infinity();
+        }
+        transmittance = static_cast<float>(transmittance_from_optical_depth(optical_depth));
+      }
       film.radiance[c][pixel] = channel[c][lane];
       film.transmittance[c][pixel] = transmittance;
     }
@@ -416,9 +430,9 @@ inline void store(const MarchTask& task,
 }
 
 /// Marches one packet. Returns its samples and rays.
-template <class Integrator>
+template <class Integrator, class Record>
 MarchCount march_packet(
-  Integrator& integrator, PacketRays& packet, int x, int y, Gathered& gathered, Mask& met)
+  Integrator& integrator, PacketRays& packet, int x, int y, Record& gathered, Mask& met)
 {
   MarchCount count;
   Rays rays;
@@ -437,6 +451,13 @@ MarchCount march_packet(
   }
   return count;
 }
+
+/// What an integrator gathers.
+template <class Integrator>
+struct RecordOf
+{
+  using type = Gathered;
+};
 
 /// What marches with one length of step.
 template <class Integrator>
@@ -479,7 +500,7 @@ MarchCount march_tile(const MarchTask& task)
             std::make_unique<Level<Integrator>>(task, task.step / static_cast<double>(1 << i));
         }
         Level<Integrator>& level = *levels[i];
-        Gathered gathered;
+        typename RecordOf<Integrator>::type gathered;
         Mask met = hn::FirstN(float_tag, 0);
         const MarchCount packet =
           march_packet(level.integrator, level.packet, x, y, gathered, met);

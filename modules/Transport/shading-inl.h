@@ -10,6 +10,19 @@ struct Incidence
   R strength;     ///< attenuation and cone
 };
 
+/// The cone's cosᵉ fall-off (vtkLight) for light that travels along a unit vector.
+template <class R>
+R cone_factor(const ShadeLight& light, const Vec3<R>& travel)
+{
+  if (!(light.cone_cosine > -1.0f))
+  {
+    return broadcast<R>(1.0f);
+  }
+  const R cosine = dot(travel, broadcast3<R>(light.direction));
+  return select(cosine >= broadcast<R>(light.cone_cosine),
+    pow(max(cosine, broadcast<R>(1e-6f)), light.exponent), broadcast<R>(0.0f));
+}
+
 /// Incidence of a light at a place of the world. Distance attenuation 1/(a + b d + c d²) and the
 /// cone's cosᵉ fall-off are VTK's (vtkLight).
 template <class R>
@@ -31,11 +44,48 @@ Incidence<R> incidence(const ShadeLight& light, const Vec3<R>& place)
   R strength = broadcast<R>(1.0f) / max(weakening, broadcast<R>(1e-12f));
   if (light.cone_cosine > -1.0f)
   {
-    const R cosine = dot(travel, along);
-    strength = select(cosine >= broadcast<R>(light.cone_cosine),
-      strength * pow(max(cosine, broadcast<R>(1e-6f)), light.exponent), broadcast<R>(0.0f));
+    strength = strength * cone_factor<R>(light, travel);
   }
   return { -travel, strength };
+}
+
+/// What a surface sends of a light, by the light it has already: adds to both.
+template <class R>
+void add_light(const ShadeModel& model,
+  const ShadeLight& light,
+  const Incidence<R>& from,
+  const Vec3<R>& normal,
+  const Vec3<R>& toward_viewer,
+  Vec3<R>& diffuse,
+  Vec3<R>& specular)
+{
+  const R zero = broadcast<R>(0.0f);
+  const R n_dot_l = dot(normal, from.toward);
+  const R lit = max(n_dot_l, zero) * from.strength;
+  diffuse = diffuse + broadcast3<R>(light.diffuse) * lit;
+  if (model.specular)
+  {
+    const Vec3<R> between = from.toward + toward_viewer;
+    const R n_dot_h = dot(normal, between) * rsqrt_or_zero(dot(between, between));
+    const R highlight =
+      select(n_dot_l > zero, pow(max(n_dot_h, broadcast<R>(1e-6f)), model.specular_power), zero);
+    specular = specular + broadcast3<R>(light.specular) * (highlight * from.strength);
+  }
+}
+
+/// The normal against the gradient, turned toward the viewer when two-sided; 0 without a gradient.
+template <class R>
+Vec3<R> surface_normal(
+  const ShadeModel& model, const Vec3<R>& gradient, const Vec3<R>& toward_viewer)
+{
+  const R zero = broadcast<R>(0.0f);
+  const Vec3<R> normal = gradient * (zero - rsqrt_or_zero(dot(gradient, gradient)));
+  if (!model.two_sided)
+  {
+    return normal;
+  }
+  const R facing = dot(normal, toward_viewer);
+  return normal * select(facing >= zero, broadcast<R>(1.0f), broadcast<R>(-1.0f));
 }
 
 /// Blinn and Phong's model on the direction of the gradient, as vtkFixedPointVolumeRayCastMapper
@@ -48,29 +98,13 @@ Vec3<R> shade(const ShadeModel& model, const Vec3<R>& gradient, const Vec3<R>& t
   const Vec3<R>& place, const Vec3<R>& colour)
 {
   const R zero = broadcast<R>(0.0f);
-  Vec3<R> normal = gradient * (zero - rsqrt_or_zero(dot(gradient, gradient)));
-  if (model.two_sided)
-  {
-    const R facing = dot(normal, toward_viewer);
-    const R sign = select(facing >= zero, broadcast<R>(1.0f), broadcast<R>(-1.0f));
-    normal = normal * sign;
-  }
+  const Vec3<R> normal = surface_normal<R>(model, gradient, toward_viewer);
   Vec3<R> diffuse = broadcast3<R>(model.ambient);
   Vec3<R> specular{ zero, zero, zero };
   for (const ShadeLight& light : model.lights)
   {
-    const Incidence<R> from = incidence<R>(light, place);
-    const R n_dot_l = dot(normal, from.toward);
-    const R lit = max(n_dot_l, zero) * from.strength;
-    diffuse = diffuse + broadcast3<R>(light.diffuse) * lit;
-    if (model.specular)
-    {
-      const Vec3<R> between = from.toward + toward_viewer;
-      const R n_dot_h = dot(normal, between) * rsqrt_or_zero(dot(between, between));
-      const R highlight =
-        select(n_dot_l > zero, pow(max(n_dot_h, broadcast<R>(1e-6f)), model.specular_power), zero);
-      specular = specular + broadcast3<R>(light.specular) * (highlight * from.strength);
-    }
+    add_light<R>(
+      model, light, incidence<R>(light, place), normal, toward_viewer, diffuse, specular);
   }
   return colour * diffuse + specular;
 }

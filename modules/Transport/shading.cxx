@@ -9,6 +9,25 @@
 namespace brume
 {
 
+ShadeLight prepare_light(const Light& light, double diffuse, double specular)
+{
+  ShadeLight l{};
+  for (int c = 0; c < 3; ++c)
+  {
+    l.diffuse[c] = static_cast<float>(diffuse * light.diffuse[c]);
+    l.specular[c] = static_cast<float>(specular * light.specular[c]);
+    l.direction[c] = static_cast<float>(light.direction[c]);
+    l.position[c] = static_cast<float>(light.position[c]);
+    l.attenuation[c] = static_cast<float>(light.attenuation[c]);
+  }
+  const double degree = 3.14159265358979323846 / 180.0;
+  l.cone_cosine =
+    light.cone_angle >= 90.0 ? -2.0f : static_cast<float>(std::cos(light.cone_angle * degree));
+  l.exponent = static_cast<float>(light.exponent);
+  l.positional = light.positional;
+  return l;
+}
+
 ShadeModel prepare_shading(const Scene& scene, const Volume& volume)
 {
   ShadeModel model;
@@ -25,21 +44,9 @@ ShadeModel prepare_shading(const Scene& scene, const Volume& volume)
   }
   for (const Light& light : scene.lights)
   {
-    ShadeLight l{};
-    for (int c = 0; c < 3; ++c)
-    {
-      l.diffuse[c] = static_cast<float>(shading.diffuse * light.diffuse[c]);
-      l.specular[c] = static_cast<float>(shading.specular * light.specular[c]);
-      l.direction[c] = static_cast<float>(light.direction[c]);
-      l.position[c] = static_cast<float>(light.position[c]);
-      l.attenuation[c] = static_cast<float>(light.attenuation[c]);
-      model.specular = model.specular || l.specular[c] > 0.0f;
-    }
-    const double degree = 3.14159265358979323846 / 180.0;
-    l.cone_cosine =
-      light.cone_angle >= 90.0 ? -2.0f : static_cast<float>(std::cos(light.cone_angle * degree));
-    l.exponent = static_cast<float>(light.exponent);
-    l.positional = light.positional;
+    const ShadeLight l = prepare_light(light, shading.diffuse, shading.specular);
+    model.specular =
+      model.specular || std::any_of(l.specular, l.specular + 3, [](float v) { return v > 0.0f; });
     model.needs_place = model.needs_place || l.positional;
     // A lamp is strongest at no distance: 1 / a, which may be infinite.
     const double strongest = l.positional ? 1.0 / std::max(0.0f, l.attenuation[0]) : 1.0;

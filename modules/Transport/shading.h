@@ -22,6 +22,9 @@ struct ShadeLight
   bool positional;
 };
 
+/// A light as kernels read it, its colours multiplied by factors.
+ShadeLight prepare_light(const Light& light, double diffuse = 1.0, double specular = 1.0);
+
 struct ShadeModel
 {
   bool enabled = false;

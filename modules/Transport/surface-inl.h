@@ -32,6 +32,17 @@ HWY_INLINE Vec3<Real> toward_viewer(const ShadeModel& model, const Line& line)
   return -(along * rsqrt_or_zero(dot(along, along)));
 }
 
+/// A gradient of index space in the world.
+HWY_INLINE Vec3<Real> world_gradient(const ShadeModel& model, const Vec3<Real>& gradient)
+{
+  // Between values near the ends of float's range the differences overflow: no direction then.
+  const Vec3<Real> slope = multiply(model.world_from_gradient, 3, gradient);
+  const Mask finite = hn::IsFinite(dot(slope, slope));
+  return { hn::IfThenElseZero(finite, slope.x),
+    hn::IfThenElseZero(finite, slope.y),
+    hn::IfThenElseZero(finite, slope.z) };
+}
+
 /// The light that matter of a colour sends to the viewer from a place of a line.
 HWY_INLINE Vec3<Real> shaded(const ShadeModel& model,
   const Line& line,
@@ -40,21 +51,12 @@ HWY_INLINE Vec3<Real> shaded(const ShadeModel& model,
   const Vec3<Real>& gradient,
   const Vec3<Real>& colour)
 {
-  // Between values near the ends of float's range the differences overflow: no direction then.
-  Vec3<Real> slope = multiply(model.world_from_gradient, 3, gradient);
-  const Mask finite = hn::IsFinite(dot(slope, slope));
-  slope = { hn::IfThenElseZero(finite, slope.x),
-    hn::IfThenElseZero(finite, slope.y),
-    hn::IfThenElseZero(finite, slope.z) };
   Vec3<Real> world = line.delta;
   if (model.needs_place)
   {
-    world = multiply(model.world_from_index, 4, line.at(position));
-    world.x = world.x + real(model.world_from_index[3]);
-    world.y = world.y + real(model.world_from_index[7]);
-    world.z = world.z + real(model.world_from_index[11]);
+    world = transform(model.world_from_index, line.at(position));
   }
-  return shade<Real>(model, slope, viewer, world, colour);
+  return shade<Real>(model, world_gradient(model, gradient), viewer, world, colour);
 }
 
 }

@@ -1,0 +1,813 @@
+// Light in media along packets of rays: absorption, emission, and what the matter scatters of lights
+// and sky. Theory: docs/theory/light.md. Included once for each SIMD target.
+#if defined(BRUME_LIT_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef BRUME_LIT_INL_H
+#undef BRUME_LIT_INL_H
+#else
+#define BRUME_LIT_INL_H
+#endif
+
+#include "Transport/shadow-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace brume
+{
+namespace HWY_NAMESPACE
+{
+
+#include "Transport/phase-inl.h"
+
+/// What a packet gathers of lit media: also the transmittances of G and B.
+struct LitGathered : Gathered
+{
+  Real through[3];
+  Sum depths[3]; ///< of a grey medium the first alone
+  bool coloured = false;
+
+  HWY_INLINE const Sum& depth_of(int c) const { return depths[coloured ? c : 0]; }
+
+  HWY_INLINE LitGathered()
+    : Gathered()
+    , through{ real(1.0f), real(1.0f), real(1.0f) }
+  {
+  }
+};
+
+/// A number of each channel; of a grey medium the three are one.
+template <bool Chromatic>
+struct Channels;
+template <>
+struct Channels<true>
+{
+  Real value[3];
+  HWY_INLINE Real& operator[](int c) { return value[c]; }
+  HWY_INLINE Real operator[](int c) const { return value[c]; }
+};
+template <>
+struct Channels<false>
+{
+  Real value;
+  HWY_INLINE Real& operator[](int) { return value; }
+  HWY_INLINE Real operator[](int) const { return value; }
+};
+
+/// Single: one grid of densities. Chromatic: its channels differ. Rich: there is more to it than
+/// lights at infinity and one octave: lamps, octaves, sky, emission, powder.
+template <bool Single, bool Chromatic, bool Rich>
+class LitIntegrator
+{
+public:
+  explicit LitIntegrator(const MarchTask& task)
+    : Task(task)
+    , Lit(*task.lit)
+    , VolumeCount(Single ? 1 : static_cast<int>(task.volumes->size()))
+    , LightCount(static_cast<int>(task.lit->lights.size()))
+    , Depths(task)
+    , Shadows(task.lit->lights.size() * (steps_at_once + 1) * 3)
+    , Phases(task.lit->lights.size() * VolumeCount * most_octaves)
+    , Functions(field_functions(task.volumes->front().field))
+  {
+    for (const VolumeTask& volume : *task.volumes)
+    {
+      Volumes.emplace_back(volume, task.step);
+      CanLeap = CanLeap || volume.bricks;
+    }
+    if (Rich)
+    {
+      for (const LitVolume& volume : Lit.volumes)
+      {
+        Temperatures.push_back(
+          volume.black_body ? field_functions(volume.temperature) : FieldFunctions{});
+      }
+      for (const AmbientLight& light : Lit.ambient)
+      {
+        Ambients.push_back(field_functions(light.share[0].field));
+      }
+    }
+  }
+
+  double depth_scale() const { return 1.0; }
+
+  std::uint64_t march(const Rays& rays, LitGathered& gathered)
+  {
+    begin(rays);
+    gathered.coloured = Chromatic;
+    const Real zero = hn::Zero(float_tag);
+    const Real one = real(1.0f);
+    Real end = rays.end;
+    Real step = zero;
+    bool fresh = true; // the light at the beginning of the step is not known
+    bool empty = true; // nothing was met: look for bricks to leap over
+    DepthBefore = DepthEarlier = zero;
+    std::uint64_t samples = 0;
+    for (;;)
+    {
+      Mask active = step < end;
+      if (hn::AllFalse(float_tag, active))
+      {
+        return samples;
+      }
+      if (empty && CanLeap)
+      {
+        const Real way = leap(rays, (max(step, rays.start) + hn::Min(step + one, rays.end)) * real(0.5f));
+        const Mask leaping = hn::And(active, way > zero);
+        if (!hn::AllFalse(float_tag, leaping))
+        {
+          step = step + hn::IfThenElseZero(leaping, hn::Floor(way) + one);
+          fresh = true;
+          continue;
+        }
+      }
+      Stretch stretches[steps_at_once];
+      for (int i = 0; i < steps_at_once; ++i)
+      {
+        const Real from = step + real(static_cast<float>(i));
+        const Real low = max(from, rays.start);
+        const Real high = hn::Min(from + one, rays.end);
+        stretches[i] = { low, high, (low + high) * real(0.5f), from < end };
+      }
+      Piece pieces[steps_at_once][Single ? 1 : most_volumes];
+      empty = !look(rays, stretches, pieces, samples);
+      if (empty)
+      {
+        step = step + real(static_cast<float>(steps_at_once));
+        fresh = true;
+        DepthBefore = DepthEarlier = zero;
+        continue;
+      }
+      samples += find_shadows(stretches, fresh);
+      fresh = false;
+      for (int i = 0; i < steps_at_once; ++i)
+      {
+        active = hn::And(stretches[i].active, step < end);
+        if (hn::AllFalse(float_tag, active))
+        {
+          return samples;
+        }
+        pass(rays, stretches[i], active, pieces[i], i, gathered);
+        const Mask leave = hn::And(active, gathered.transmittance < real(Task.leave_below));
+        gathered.left = hn::Or(gathered.left, leave);
+        end = hn::IfThenZeroElse(leave, end);
+        step = step + one;
+      }
+    }
+  }
+
+private:
+  static constexpr int steps_at_once = Single ? samples_between_leaps : 1;
+
+  struct Stretch
+  {
+    Real low;
+    Real high;
+    Real middle;
+    Mask active;
+  };
+
+  /// What one volume has in a stretch.
+  struct Piece
+  {
+    Real depth;
+    Real amount;
+    Real length; ///< in the volume's data
+    Mask inside;
+    Matter matter;
+  };
+
+  /// Once for each stretch of a packet's rays: what is the same all along.
+  void begin(const Rays& rays)
+  {
+    Depths.begin(rays.lines[0]);
+    const Vec3<Real> along = multiply(Lit.world_from_index, 4, rays.lines[0].delta);
+    Viewer = -(along * rsqrt_or_zero(dot(along, along)));
+    for (int l = 0; l < LightCount; ++l)
+    {
+      const LitLight& light = Lit.lights[l];
+      if (!light.source.positional)
+      {
+        find_phases(l, broadcast3<Real>(light.source.direction));
+      }
+    }
+  }
+
+  /// Phase functions between a direction of travel and the viewer, octave by octave.
+  HWY_INLINE void find_phases(int l, const Vec3<Real>& travel)
+  {
+    const Vec3<Real> apart = travel - Viewer;
+    const Vec3<Real> together = travel + Viewer;
+    const Real half = real(0.5f);
+    const Real one_minus = dot(apart, apart) * half;
+    const Real one_plus = dot(together, together) * half;
+    for (int k = 0; k < VolumeCount; ++k)
+    {
+      const LitVolume& volume = Lit.volumes[k];
+      const std::size_t octaves = Rich ? volume.octaves.size() : 1;
+      for (std::size_t m = 0; m < octaves && volume.lit; ++m)
+      {
+        Phases.set(phase_index(l, k, static_cast<int>(m)),
+          phase<Real>(volume.octaves[m].phase, one_minus, one_plus));
+      }
+    }
+  }
+  HWY_INLINE std::size_t phase_index(int l, int k, int m) const
+  {
+    return (static_cast<std::size_t>(l) * VolumeCount + k) * most_octaves + m;
+  }
+
+  /// Reads the volumes. Returns whether there is anything.
+  HWY_INLINE bool look(const Rays& rays,
+    const Stretch* stretches,
+    Piece (*pieces)[Single ? 1 : most_volumes],
+    std::uint64_t& samples) const
+  {
+    const Real zero = hn::Zero(float_tag);
+    Mask any = hn::FirstN(float_tag, 0);
+    if constexpr (Single)
+    {
+      const VolumeTask& volume = Task.volumes->front();
+      Real positions[steps_at_once];
+      Real values[steps_at_once];
+      for (int i = 0; i < steps_at_once; ++i)
+      {
+        positions[i] = stretches[i].middle;
+      }
+      Functions.values(volume.field, rays.lines[0], positions, steps_at_once, values);
+      const Real unit = real(static_cast<float>(Task.step)) * rays.scale[0];
+      for (int i = 0; i < steps_at_once; ++i)
+      {
+        Piece& piece = pieces[i][0];
+        const Mask active = stretches[i].active;
+        samples += hn::CountTrue(float_tag, active);
+        piece.length =
+          hn::IfThenElseZero(active, (stretches[i].high - stretches[i].low) * unit);
+        piece.amount = clamp(values[i], zero, real(1e30f)) * piece.length;
+        piece.depth = hn::Min(piece.amount * real(volume.extinction), real(1e30f));
+        piece.inside = active;
+        any = hn::Or(any, piece.amount > zero);
+      }
+    }
+    else
+    {
+      const Stretch& stretch = stretches[0];
+      for (int k = 0; k < VolumeCount; ++k)
+      {
+        Piece& piece = pieces[0][k];
+        piece.inside = hn::And(stretch.active, rays.inside[k] > zero);
+        piece.depth = piece.amount = piece.length = zero;
+        if (hn::AllFalse(float_tag, piece.inside))
+        {
+          continue;
+        }
+        samples += hn::CountTrue(float_tag, piece.inside);
+        const Real length = (stretch.high - stretch.low) * rays.scale[k];
+        Volumes[k].look(rays.lines[k], stretch.middle, length, piece.inside, piece.matter);
+        piece.length = length * real(static_cast<float>(Task.step));
+        piece.depth = piece.matter.depth;
+        piece.amount = piece.matter.amount;
+        any = hn::Or(any, piece.amount > zero);
+      }
+    }
+    return !hn::AllFalse(float_tag, any);
+  }
+
+  /// Optical depths toward the lights where the stretches begin and end. Those of place i of light l
+  /// are at shadow_index(l, i).
+  HWY_INLINE std::size_t shadow_index(int l, int i) const
+  {
+    return (static_cast<std::size_t>(l) * (steps_at_once + 1) + i) * 3;
+  }
+  HWY_INLINE std::uint64_t find_shadows(const Stretch* stretches, bool fresh)
+  {
+    std::uint64_t samples = 0;
+    Real positions[steps_at_once + 1];
+    positions[0] = stretches[0].low;
+    for (int i = 0; i < steps_at_once; ++i)
+    {
+      // Beyond the ray's end nothing is asked for: its end serves as well as any place.
+      positions[i + 1] = max(stretches[i].high, positions[0]);
+    }
+    for (int l = 0; l < LightCount; ++l)
+    {
+      Vec3<Real> depths[steps_at_once + 1];
+      const int first = fresh ? 0 : 1;
+      samples += Depths.get(l, positions + first, steps_at_once + 1 - first,
+        stretches[0].active, depths + first);
+      if (!fresh)
+      {
+        depths[0] = get_shadow(l, steps_at_once);
+      }
+      for (int i = 0; i <= steps_at_once; ++i)
+      {
+        Shadows.set(shadow_index(l, i), depths[i].x);
+        if (Chromatic && Lit.maps == 3)
+        {
+          Shadows.set(shadow_index(l, i), depths[i]);
+        }
+      }
+    }
+    return samples;
+  }
+  HWY_INLINE Vec3<Real> get_shadow(int l, int i) const
+  {
+    const std::size_t at = shadow_index(l, i);
+    const Real first = Shadows.get(at);
+    if (Chromatic && Lit.maps == 3)
+    {
+      return { first, Shadows.get(at + 1), Shadows.get(at + 2) };
+    }
+    return { first, first, first };
+  }
+
+  /// The factor of channel c on all optical depths that one map gives.
+  HWY_INLINE Real channel(int c) const { return real(Lit.channels[c]); }
+
+  /// Takes a stretch.
+  HWY_INLINE void pass(const Rays& rays,
+    const Stretch& stretch,
+    Mask active,
+    const Piece* pieces,
+    int number,
+    LitGathered& gathered)
+  {
+    constexpr int channels = Chromatic ? 3 : 1;
+    const Real zero = hn::Zero(float_tag);
+    // What the view is dimmed by.
+    Channels<Chromatic> dim;
+    Real total = zero;
+    for (int c = 0; c < channels; ++c)
+    {
+      dim[c] = zero;
+    }
+    for (int k = 0; k < VolumeCount; ++k)
+    {
+      total = total + pieces[k].depth;
+      for (int c = 0; c < channels; ++c)
+      {
+        const Real part =
+          Chromatic ? pieces[k].depth * real(Lit.volumes[k].channels[c]) : pieces[k].depth;
+        dim[c] = dim[c] + part;
+      }
+    }
+    estimate_error(total, gathered);
+    Channels<Chromatic> passes;
+    Channels<Chromatic> share; // the mean of what the stretch lets pass of its own light
+    for (int c = 0; c < channels; ++c)
+    {
+      dim[c] = Lit.absorption ? hn::IfThenElseZero(active, dim[c]) : zero;
+      passes[c] = hn::Exp(float_tag, hn::Neg(dim[c]));
+      share[c] = mean_transmittance(dim[c], passes[c]);
+    }
+
+    Vec3<Real> sent{ zero, zero, zero }; // as the eye end of the stretch has it
+    for (int k = 0; k < VolumeCount; ++k)
+    {
+      if (!hn::AllFalse(float_tag, pieces[k].amount > zero))
+      {
+        add_piece(rays, stretch, k, pieces[k], number, dim, passes, share, sent);
+      }
+    }
+    Real* radiance[3] = { &gathered.radiance.x, &gathered.radiance.y, &gathered.radiance.z };
+    const Real light[3] = { sent.x, sent.y, sent.z };
+    for (int c = 0; c < 3; ++c)
+    {
+      const Real through = gathered.through[Chromatic ? c : 0];
+      *radiance[c] =
+        hn::MulAdd(through, hn::IfThenElseZero(active, light[c]), *radiance[c]);
+    }
+    for (int c = 0; c < channels; ++c)
+    {
+      gathered.depths[c].add(dim[c]);
+      // T − T (1 − e^−τ), so that what is sent and what passes add up.
+      gathered.through[c] =
+        hn::NegMulAdd(gathered.through[c], dim[c] * share[c], gathered.through[c]);
+    }
+    gathered.transmittance = Chromatic
+      ? max(gathered.through[0], max(gathered.through[1], gathered.through[2]))
+      : gathered.through[0];
+    gathered.note_half_way(
+      hn::And(active, gathered.transmittance < real(0.5f)), rays, stretch.middle);
+  }
+
+  /// Adds what one volume sends of a stretch.
+  HWY_INLINE void add_piece(const Rays& rays,
+    const Stretch& stretch,
+    int k,
+    const Piece& piece,
+    int number,
+    const Channels<Chromatic>& dim,
+    const Channels<Chromatic>& passes,
+    const Channels<Chromatic>& share,
+    Vec3<Real>& sent)
+  {
+    const LitVolume& medium = Lit.volumes[k];
+    const VolumeTask& volume = *(Task.volumes->data() + k);
+    Real* out[3] = { &sent.x, &sent.y, &sent.z };
+    const bool classified = !Single && volume.meaning == ValueMeaning::Classified;
+    Vec3<Real> colour{ real(1.0f), real(1.0f), real(1.0f) };
+    Matter matter;
+    if (classified)
+    {
+      matter = piece.matter;
+      colour = Volumes[k].colour(rays.lines[k], stretch.middle, matter);
+      if (volume.shade.enabled)
+      {
+        Volumes[k].find_gradient(rays.lines[k], stretch.middle, matter);
+      }
+    }
+    if (!Single && !medium.lit)
+    {
+      if (classified) // emission and absorption
+      {
+        if (volume.shade.enabled)
+        {
+          const Vec3<Real> viewer = toward_viewer(volume.shade, rays.lines[k]);
+          colour = shaded(
+            volume.shade, rays.lines[k], viewer, stretch.middle, matter.gradient, colour);
+        }
+        const Real source[3] = { colour.x, colour.y, colour.z };
+        for (int c = 0; c < 3; ++c)
+        {
+          *out[c] = hn::MulAdd(source[c] * piece.depth, share[c], *out[c]);
+        }
+      }
+      return;
+    }
+
+    const Real tint[3] = { colour.x, colour.y, colour.z };
+    Real scatter[3]; // scattering coefficient times length
+    const Real powder = Rich && medium.powder
+      ? powder_factor(rays, stretch, k, piece, classified)
+      : real(1.0f);
+    for (int c = 0; c < 3; ++c)
+    {
+      scatter[c] = piece.depth * real(medium.albedo[c]);
+      if (Chromatic)
+      {
+        scatter[c] = scatter[c] * real(medium.channels[c]);
+      }
+      if (classified)
+      {
+        scatter[c] = scatter[c] * tint[c];
+      }
+      if (Rich)
+      {
+        scatter[c] = scatter[c] * powder;
+      }
+    }
+    if (classified && volume.shade.enabled)
+    {
+      add_shading(rays, stretch, k, piece, number, matter, colour, dim, passes, share, sent);
+    }
+    else
+    {
+      for (int l = 0; l < LightCount; ++l)
+      {
+        Channels<Chromatic> light;
+        Real strength;
+        if (Rich && Lit.lights[l].source.positional)
+        {
+          strength = lamp(rays, stretch, l);
+        }
+        else
+        {
+          strength = real(1.0f);
+        }
+        of_octaves(l, k, number, dim, passes, light);
+        for (int c = 0; c < 3; ++c)
+        {
+          const Real irradiance = Rich ? strength * real(Lit.lights[l].irradiance[c])
+                                       : real(Lit.lights[l].irradiance[c]);
+          *out[c] = hn::MulAdd(scatter[c] * irradiance, light[c], *out[c]);
+        }
+      }
+    }
+    if constexpr (Rich)
+    {
+      add_ambient(rays, stretch, scatter, share, sent);
+      if (medium.emits)
+      {
+        add_emission(rays, stretch, k, piece, tint, share, sent);
+      }
+    }
+  }
+
+  /// Σ bᵐ p e^{−aᵐ τ}, averaged over the stretch as the eye sees it: τ runs evenly from its beginning
+  /// to its end.
+  HWY_INLINE void of_octaves(int l,
+    int k,
+    int number,
+    const Channels<Chromatic>& dim,
+    const Channels<Chromatic>& passes,
+    Channels<Chromatic>& light) const
+  {
+    constexpr int channels = Chromatic ? 3 : 1;
+    const Vec3<Real> low = get_shadow(l, number);
+    const Vec3<Real> high = get_shadow(l, number + 1);
+    const Real from[3] = { low.x, low.y, low.z };
+    const Real to[3] = { high.x, high.y, high.z };
+    const LitVolume& medium = Lit.volumes[k];
+    const int octaves = Rich ? static_cast<int>(medium.octaves.size()) : 1;
+    for (int c = 0; c < channels; ++c)
+    {
+      light[c] = hn::Zero(float_tag);
+      for (int m = 0; m < octaves; ++m)
+      {
+        Real begin = from[c];
+        Real end = to[c];
+        if (Chromatic)
+        {
+          begin = begin * channel(c);
+          end = end * channel(c);
+        }
+        Real factor = Phases.get(phase_index(l, k, m));
+        if (m > 0)
+        {
+          begin = begin * real(medium.octaves[m].attenuation);
+          end = end * real(medium.octaves[m].attenuation);
+          factor = factor * real(medium.octaves[m].contribution);
+        }
+        light[c] = hn::MulAdd(factor, mean_light(begin, end, dim[c], passes[c]), light[c]);
+      }
+    }
+  }
+
+  /// The mean over a stretch of e^{−τ} seen through what of the stretch lies before: τ runs evenly
+  /// from `begin` to `end`, the depth of the stretch itself from 0 to `dim`.
+  static HWY_INLINE Real mean_light(Real begin, Real end, Real dim, Real passes)
+  {
+    const Real first = hn::Exp(float_tag, hn::Neg(begin));
+    const Real difference = dim + (end - begin);
+    const Mask small = hn::Abs(difference) < real(0.5f);
+    const Real series = first * mean_transmittance(hn::IfThenElseZero(small, difference), first);
+    if (HWY_LIKELY(hn::AllTrue(float_tag, small)))
+    {
+      return series;
+    }
+    const Real last = passes * hn::Exp(float_tag, hn::Neg(end));
+    return hn::IfThenElse(
+      small, series, (first - last) / hn::IfThenElse(small, real(1.0f), difference));
+  }
+
+  HWY_INLINE Vec3<Real> world_place(const Rays& rays, Real position) const
+  {
+    return transform(Lit.world_from_index, rays.lines[0].at(position));
+  }
+
+  /// What a lamp sends to a stretch, and its phase functions there. Where it weakens with the square
+  /// of the distance d, 1 / (a + c d²) is averaged over the stretch in closed form: with b the way
+  /// from the place nearest to the lamp, δ its distance and r² = δ² + a / c,
+  ///     1/h ∫ ds / (c (r² + s²)) = (atan((b + h/2)/r) − atan((b − h/2)/r)) / (c r h),
+  /// the angle between two directions, which stays right when the ray runs through the lamp.
+  HWY_INLINE Real lamp(const Rays& rays, const Stretch& stretch, int l)
+  {
+    const ShadeLight& light = Lit.lights[l].source;
+    const Real zero = hn::Zero(float_tag);
+    const Vec3<Real> place = world_place(rays, stretch.middle);
+    const Incidence<Real> from = incidence<Real>(light, place);
+    find_phases(l, -from.toward);
+    const float constant_part = light.attenuation[0];
+    const float square_part = light.attenuation[2];
+    if (!(square_part > 0.0f))
+    {
+      return from.strength;
+    }
+    const Vec3<Real> offset = place - broadcast3<Real>(light.position);
+    const Real along = hn::Neg(dot(offset, Viewer));
+    const Real square = dot(offset, offset);
+    const Real length = (stretch.high - stretch.low) * rays.step_world;
+    const Real nearest = max(hn::NegMulAdd(along, along, square), zero);
+    // A ray through the lamp itself would be infinitely bright there.
+    const Real least = length * length * real(1e-10f);
+    const Real r2 = max(nearest + real(constant_part / square_part), max(least, real(1e-30f)));
+    const Real inverse = rsqrt_or_zero(r2);
+    const Real r = r2 * inverse;
+    // atan2(h r, r² + b² − h²/4), in (0, π).
+    const Real y = length * r;
+    const Real x = hn::MulAdd(along, along, r2) - length * length * real(0.25f);
+    const Mask steep = hn::Abs(x) < y;
+    const Real numerator = hn::IfThenElse(steep, x, y);
+    const Real denominator = hn::IfThenElse(steep, y, x);
+    const Mask some = hn::Abs(denominator) > zero;
+    const Real slope =
+      hn::Atan(float_tag, numerator / hn::IfThenElse(some, denominator, real(1.0f)));
+    const Real pi = real(3.14159265f);
+    const Real turned = hn::IfThenElse(x < zero, slope + pi, slope);
+    const Real angle = hn::IfThenElse(steep, pi * real(0.5f) - slope, turned);
+    const Mask long_enough = length > zero;
+    const Real mean = hn::IfThenElseZero(long_enough,
+      angle * inverse / hn::IfThenElse(long_enough, length, real(1.0f)));
+    if (light.attenuation[1] == 0.0f)
+    {
+      return cone_factor<Real>(light, -from.toward) * mean * real(1.0f / square_part);
+    }
+    // What the linear part changes is taken from the middle.
+    return from.strength * mean * hn::MulAdd(along, along, nearest + real(constant_part / square_part));
+  }
+
+  HWY_INLINE void add_ambient(const Rays& rays,
+    const Stretch& stretch,
+    const Real* scatter,
+    const Channels<Chromatic>& share,
+    Vec3<Real>& sent) const
+  {
+    Real* out[3] = { &sent.x, &sent.y, &sent.z };
+    for (std::size_t i = 0; i < Lit.ambient.size(); ++i)
+    {
+      const AmbientLight& light = Lit.ambient[i];
+      const float* node_from_index = light.share[0].node_from_index;
+      const Line line{ transform(node_from_index, rays.lines[0].begin),
+        multiply(node_from_index, 4, rays.lines[0].delta) };
+      Real value = hn::Zero(float_tag);
+      for (int c = 0; c < 3; ++c)
+      {
+        if (c == 0 || Chromatic)
+        {
+          Ambients[i].values(light.share[c].field, line, &stretch.middle, 1, &value);
+          value = value * real(light.share[c].scale);
+        }
+        *out[c] =
+          hn::MulAdd(scatter[c] * share[c], value * real(0.5f * light.radiance[c]), *out[c]);
+      }
+    }
+  }
+
+  HWY_INLINE void add_emission(const Rays& rays,
+    const Stretch& stretch,
+    int k,
+    const Piece& piece,
+    const Real* tint,
+    const Channels<Chromatic>& share,
+    Vec3<Real>& sent) const
+  {
+    const LitVolume& medium = Lit.volumes[k];
+    Real* out[3] = { &sent.x, &sent.y, &sent.z };
+    Vec3<Real> source = broadcast3<Real>(medium.emission);
+    if (medium.black_body)
+    {
+      const BlackBodyTable& table = *medium.black_body;
+      Real value;
+      Temperatures[k].values(medium.temperature, rays.lines[k], &stretch.middle, 1, &value);
+      const Real at = clamp(value * real(medium.temperature_scale * table.scale),
+        hn::Zero(float_tag), real(static_cast<float>(table.intervals)));
+      const Int index = hn::Min(hn::ConvertTo(int_tag, at), integer(table.intervals - 1));
+      const Real fraction = at - hn::ConvertTo(float_tag, index);
+      const Int offset = hn::ShiftLeft<2>(index);
+      const float* nodes = &table.nodes[0].red;
+      Real body[3];
+      for (int c = 0; c < 3; ++c)
+      {
+        body[c] = lerp(hn::GatherIndex(float_tag, nodes + c, offset),
+          hn::GatherIndex(float_tag, nodes + c + 4, offset), fraction);
+      }
+      const Real scale = real(medium.black_body_scale);
+      source = source + Vec3<Real>{ body[0] * scale, body[1] * scale, body[2] * scale };
+    }
+    const Real emitted[3] = { source.x, source.y, source.z };
+    for (int c = 0; c < 3; ++c)
+    {
+      *out[c] = hn::MulAdd(emitted[c] * tint[c] * piece.amount, share[c], *out[c]);
+    }
+  }
+
+  /// See Powder.
+  HWY_INLINE Real powder_factor(const Rays& rays,
+    const Stretch& stretch,
+    int k,
+    const Piece& piece,
+    bool classified) const
+  {
+    const LitVolume& medium = Lit.volumes[k];
+    const Real zero = hn::Zero(float_tag);
+    const Real one = real(1.0f);
+    const Mask some = piece.length > zero;
+    const Real mean = piece.amount / hn::IfThenElse(some, piece.length, one);
+    const Real value =
+      classified ? opacity_from_optical_depth(mean * real(medium.unit_distance)) : mean;
+    const Real d = clamp(value * real(medium.powder_scale), zero, one);
+    const Real strength = real(medium.powder_strength);
+    if (medium.powder_form == Powder::Form::Exponential)
+    {
+      return one - strength * hn::Exp(float_tag, d * real(-2.0f));
+    }
+    const float normal[3] = { medium.height[0], medium.height[1], medium.height[2] };
+    const Real h = clamp(
+      dot(broadcast3<Real>(normal), rays.lines[k].at(stretch.middle)) + real(medium.height[3]),
+      zero, one);
+    const Real exponent = clamp(
+      hn::MulAdd(h - real(0.3f), real(0.5f / 0.6f), real(0.5f)), real(0.5f), one);
+    const Real base = clamp(hn::MulAdd(h, real(0.2f / 0.3f), real(0.8f)), real(0.8f), one);
+    const Real power = hn::Exp(float_tag, exponent * hn::Log(float_tag, max(d, real(1e-30f))));
+    const Real lower = hn::Exp(float_tag, real(0.8f) * hn::Log(float_tag, base));
+    return one - clamp(strength * power, zero, one) * lower;
+  }
+
+  /// Surface-like shading, its lights dimmed by the matter on their way.
+  HWY_INLINE void add_shading(const Rays& rays,
+    const Stretch& stretch,
+    int k,
+    const Piece& piece,
+    int number,
+    const Matter& matter,
+    const Vec3<Real>& colour,
+    const Channels<Chromatic>& dim,
+    const Channels<Chromatic>& passes,
+    const Channels<Chromatic>& share,
+    Vec3<Real>& sent) const
+  {
+    const Real zero = hn::Zero(float_tag);
+    const ShadeModel& model = Task.volumes->data()[k].shade;
+    const LitVolume& medium = Lit.volumes[k];
+    const Vec3<Real> normal =
+      surface_normal<Real>(model, world_gradient(model, matter.gradient), Viewer);
+    const Vec3<Real> place = world_place(rays, stretch.middle);
+    const Vec3<Real> tint = colour * broadcast3<Real>(medium.albedo);
+    Real* out[3] = { &sent.x, &sent.y, &sent.z };
+    const Vec3<Real> even = tint * broadcast3<Real>(model.ambient);
+    const Real ambient[3] = { even.x, even.y, even.z };
+    for (int c = 0; c < 3; ++c)
+    {
+      *out[c] = hn::MulAdd(ambient[c] * piece.depth, share[c], *out[c]);
+    }
+    for (int l = 0; l < LightCount; ++l)
+    {
+      Vec3<Real> diffuse{ zero, zero, zero };
+      Vec3<Real> specular{ zero, zero, zero };
+      add_light<Real>(model, model.lights[l], incidence<Real>(model.lights[l], place), normal,
+        Viewer, diffuse, specular);
+      const Vec3<Real> source = tint * diffuse + specular;
+      const Real light[3] = { source.x, source.y, source.z };
+      const Vec3<Real> low = get_shadow(l, number);
+      const Vec3<Real> high = get_shadow(l, number + 1);
+      const Real from[3] = { low.x, low.y, low.z };
+      const Real to[3] = { high.x, high.y, high.z };
+      Channels<Chromatic> reaches;
+      for (int c = 0; c < (Chromatic ? 3 : 1); ++c)
+      {
+        const Real scale = Chromatic ? channel(c) : real(1.0f);
+        reaches[c] = mean_light(from[c] * scale, to[c] * scale, dim[c], passes[c]);
+      }
+      for (int c = 0; c < 3; ++c)
+      {
+        *out[c] = hn::MulAdd(light[c] * piece.depth, reaches[c], *out[c]);
+      }
+    }
+  }
+
+  /// As the other integrators: from the bend of the optical depth.
+  HWY_INLINE void estimate_error(Real depth, LitGathered& gathered)
+  {
+    const Real off =
+      hn::Abs(depth - DepthBefore - DepthBefore + DepthEarlier) * real(1.0f / 24.0f);
+    gathered.error =
+      hn::MulAdd(gathered.transmittance, hn::Min(off, real(1.0f)), gathered.error);
+    DepthEarlier = DepthBefore;
+    DepthBefore = depth;
+  }
+
+  /// Steps through which no volume can be seen.
+  HWY_INLINE Real leap(const Rays& rays, Real position) const
+  {
+    return leap_all(*Task.volumes, rays, position);
+  }
+
+  const MarchTask& Task;
+  const LitTask& Lit;
+  int VolumeCount;
+  int LightCount;
+  std::vector<MatterVolume> Volumes;
+  LightDepths Depths;
+  PacketArray Shadows;
+  PacketArray Phases;
+  FieldFunctions Functions;
+  std::vector<FieldFunctions> Temperatures;
+  std::vector<FieldFunctions> Ambients;
+  bool CanLeap = false;
+  Vec3<Real> Viewer;
+  Real DepthBefore;
+  Real DepthEarlier;
+};
+
+template <bool Single, bool Chromatic, bool Rich>
+struct RecordOf<LitIntegrator<Single, Chromatic, Rich>>
+{
+  using type = LitGathered;
+};
+
+/// Takes the kernel compiled for what the scene has.
+template <bool Single>
+MarchCount march_lit(const MarchTask& task)
+{
+  if (task.lit->rich)
+  {
+    return task.lit->chromatic ? march_tile<LitIntegrator<Single, true, true>>(task)
+                               : march_tile<LitIntegrator<Single, false, true>>(task);
+  }
+  return task.lit->chromatic ? march_tile<LitIntegrator<Single, true, false>>(task)
+                             : march_tile<LitIntegrator<Single, false, false>>(task);
+}
+
+}
+}
+HWY_AFTER_NAMESPACE();
+
+#endif

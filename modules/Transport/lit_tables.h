@@ -1,0 +1,57 @@
+// What kernels of lit media need of a scene, prepared, and what of it is kept. Internal to Transport.
+#pragma once
+
+#include "Transport/light_maps.h"
+#include "Transport/lit_task.h"
+#include "Transport/march_task.h"
+#include "Transport/marcher.h"
+#include "Transport/scene.h"
+
+#include <memory>
+#include <vector>
+
+namespace brume
+{
+
+/// Whether a scene needs the kernels of lit media: a volume's medium is lit, or a density dims R, G
+/// and B differently.
+bool needs_lit_kernels(const Scene& scene);
+
+class LitTables
+{
+public:
+  /// Brings everything up to date. `shadow_step` is in the data's units of the first volume, 0 for the
+  /// method's default.
+  void update(const Scene& scene,
+    const MarchSettings& settings,
+    const std::vector<VolumeTask>& volumes,
+    int threads);
+
+  const LitTask& task() const { return this->Task; }
+  std::size_t bytes() const { return this->Maps.bytes(); }
+  double shadow_step() const { return this->Task.shadow_step; }
+  /// A bound of the radiance that a place of the scene can send.
+  double brightest() const { return this->Brightest; }
+
+private:
+  void fill_volume(const Scene& scene, std::size_t k, LitVolume& lit);
+  void fill_frame(const Scene& scene, std::size_t k, LitFrame& frame) const;
+  void fill_light(const Scene& scene, const Light& light, LitLight& lit) const;
+  void find_channels(const Scene& scene);
+  double largest_phase_toward_camera(
+    const Scene& scene, const Light& light, const PhaseModel& phase) const;
+  double find_brightest(const Scene& scene, const std::vector<VolumeTask>& volumes) const;
+
+  struct Glow
+  {
+    double hottest = 0.0;
+    double reference = 0.0;
+    BlackBodyTable table;
+  };
+  LitTask Task;
+  LightMaps Maps;
+  std::vector<std::unique_ptr<Glow>> Glows;
+  double Brightest = 1.0;
+};
+
+}
