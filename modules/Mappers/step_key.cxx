@@ -141,8 +141,9 @@ bool SceneKey::Holds(const Scene& scene, const std::vector<double>& more) const
   {
     return false;
   }
-  const std::vector<Place> places = PlacesOf(scene); // as many as before: their colours are
-  for (std::size_t i = 0; i < places.size(); ++i)
+  // As many lights as before, or none that count: their colours were among the numbers.
+  const std::vector<Place> places = PlacesOf(scene);
+  for (std::size_t i = 0; i < this->Places.size(); ++i)
   {
     const Place& now = places[i];
     const Place& then = this->Places[i];
@@ -156,10 +157,10 @@ bool SceneKey::Holds(const Scene& scene, const std::vector<double>& more) const
   return true;
 }
 
-void SceneKey::Take(const Scene& scene, const std::vector<double>& more)
+void SceneKey::Take(const Scene& scene, const std::vector<double>& more, bool places)
 {
   this->Numbers = NumbersOf(scene, more);
-  this->Places = PlacesOf(scene);
+  this->Places = places ? PlacesOf(scene) : std::vector<Place>();
 }
 
 void SceneKey::Clear()

@@ -25,7 +25,8 @@ class SceneKey
 public:
   /// `more`: whatever else the choice hangs on.
   bool Holds(const Scene& scene, const std::vector<double>& more) const;
-  void Take(const Scene& scene, const std::vector<double>& more);
+  /// `places`: whether lights that move end the choice.
+  void Take(const Scene& scene, const std::vector<double>& more, bool places = true);
   void Clear();
 
 private:

@@ -49,17 +49,6 @@ bool vtkBrumeFilmBlender::Blend(const brume::Film& film, vtkRenderer* renderer)
   {
     return false;
   }
-  this->Pixels.resize(4 * film.size());
-  for (std::size_t i = 0; i < film.size(); ++i)
-  {
-    float opacity = 1.0f;
-    for (int c = 0; c < 3; ++c)
-    {
-      this->Pixels[4 * i + c] = film.radiance[c][i];
-      opacity -= film.transmittance[c][i] / 3.0f;
-    }
-    this->Pixels[4 * i + 3] = opacity;
-  }
   this->Texture->SetContext(window);
   int width = 0;
   int height = 0;
@@ -70,8 +59,59 @@ bool vtkBrumeFilmBlender::Blend(const brume::Film& film, vtkRenderer* renderer)
   this->Texture->SetMagnificationFilter(filter);
   this->Texture->SetWrapS(vtkTextureObject::ClampToEdge);
   this->Texture->SetWrapT(vtkTextureObject::ClampToEdge);
+
+  vtkOpenGLState* state = window->GetState();
+  vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
+  vtkOpenGLState::ScopedglEnableDisable blending(state, GL_BLEND);
+  vtkOpenGLState::ScopedglBlendFuncSeparate blendFunction(state);
+  vtkOpenGLState::ScopedglDepthMask depthMask(state);
+  state->vtkglDisable(GL_DEPTH_TEST);
+  state->vtkglDepthMask(GL_FALSE);
+  state->vtkglEnable(GL_BLEND);
+  const bool grey =
+    film.transmittance[0] == film.transmittance[1] && film.transmittance[0] == film.transmittance[2];
+  if (!grey)
+  {
+    // Blending has one opacity for R, G and B: the frame is dimmed first, each channel for itself.
+    this->Fill(film, film.transmittance, false);
+    state->vtkglBlendFuncSeparate(GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_SRC_ALPHA);
+    if (!this->Draw(film, window, interpolate))
+    {
+      return false;
+    }
+  }
+  this->Fill(film, film.radiance, true);
+  const GLenum kept = grey ? GL_ONE_MINUS_SRC_ALPHA : GL_ONE;
+  state->vtkglBlendFuncSeparate(GL_ONE, kept, GL_ONE, kept);
+  return this->Draw(film, window, interpolate);
+}
+
+void vtkBrumeFilmBlender::Fill(const brume::Film& film,
+  const std::vector<float> (&rgb)[3],
+  bool opacity)
+{
+  this->Pixels.resize(4 * film.size());
+  for (std::size_t i = 0; i < film.size(); ++i)
+  {
+    float hidden = 1.0f;
+    for (int c = 0; c < 3; ++c)
+    {
+      this->Pixels[4 * i + c] = rgb[c][i];
+      hidden -= film.transmittance[c][i] / 3.0f;
+    }
+    this->Pixels[4 * i + 3] = opacity ? hidden : 1.0f - hidden;
+  }
+}
+
+bool vtkBrumeFilmBlender::Draw(const brume::Film& film,
+  vtkOpenGLRenderWindow* window,
+  bool interpolate)
+{
   if (!this->Texture->Create2DFromRaw(static_cast<unsigned int>(film.width),
-        static_cast<unsigned int>(film.height), 4, VTK_FLOAT, this->Pixels.data()))
+        static_cast<unsigned int>(film.height),
+        4,
+        VTK_FLOAT,
+        this->Pixels.data()))
   {
     return false;
   }
@@ -87,15 +127,6 @@ bool vtkBrumeFilmBlender::Blend(const brume::Film& film, vtkRenderer* renderer)
   {
     return false;
   }
-  vtkOpenGLState* state = window->GetState();
-  vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
-  vtkOpenGLState::ScopedglEnableDisable blending(state, GL_BLEND);
-  vtkOpenGLState::ScopedglBlendFuncSeparate blendFunction(state);
-  vtkOpenGLState::ScopedglDepthMask depthMask(state);
-  state->vtkglDisable(GL_DEPTH_TEST);
-  state->vtkglDepthMask(GL_FALSE);
-  state->vtkglEnable(GL_BLEND);
-  state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   this->Texture->Activate();
   this->Quad->Program->SetUniformi("film", this->Texture->GetTextureUnit());
   this->Quad->Program->SetUniformi("interpolate", interpolate);

@@ -27,11 +27,12 @@
 namespace
 {
 
-/// What the tolerance is spent on: leaving rays early, effects that are left out (of lit media
-/// alone), and steps.
+/// What the tolerance is spent on: leaving rays early, and steps; of lit scenes also effects that are
+/// left out (plan_effects takes a quarter of what it is given) and shadows.
 constexpr double LeaveShare = 0.25;
-constexpr double PlanShare = 0.25; // plan_effects takes this part of what it is given
+constexpr double ShadowShare = 0.25;
 constexpr double StepShare = 0.75;
+constexpr double LitStepShare = 0.25;
 
 std::vector<double> NumbersOf(const brume::EffectSet& effects)
 {
@@ -48,8 +49,11 @@ std::vector<double> NumbersOf(const brume::EffectSet& effects)
 struct vtkBrumeRayMarchMapper::Internals
 {
   brume::Marcher Marcher;
+  // Steps and shadows hold for all directions of light, nearly; plans do not.
   brume::SceneKey StepKey;
   brume::StepChoice Choice;
+  brume::SceneKey ShadowKey;
+  brume::ShadowChoice Shadows;
   brume::SceneKey PlanKey;
   brume::EffectPlan Plan;
   vtkNew<vtkContourValues> DepthPassContourValues; ///< kept for callers; nothing reads it
@@ -203,73 +207,91 @@ brume::EffectSet vtkBrumeRayMarchMapper::PlanEffects(const brume::Scene& scene)
   return this->Internal->Plan.on();
 }
 
-void vtkBrumeRayMarchMapper::ChooseShadows(brume::MarchSettings& settings) const
+brume::ShadowChoice vtkBrumeRayMarchMapper::ChooseShadows(const brume::Scene& scene,
+  const brume::EffectSet& effects)
 {
-  switch (this->ShadowMethod)
+  brume::ShadowChoice shadows;
+  const bool cast = brume::is_lit(scene) && effects.has(brume::Effect::Shadows);
+  if (cast && this->ShadowMethod == AutomaticShadows)
   {
-    case NoShadows:
-      settings.shadows = brume::ShadowMethod::None;
-      break;
-    case RayShadows:
-      settings.shadows = brume::ShadowMethod::Rays;
-      break;
-    case FunctionShadows:
-      settings.shadows = brume::ShadowMethod::Functions;
-      break;
-    case AutomaticShadows: // the place for a choice by the tolerance
-    default:
-      settings.shadows = brume::ShadowMethod::Volume;
-      break;
+    const double tolerance = std::max(ShadowShare * this->Tolerance, 1e-9);
+    std::vector<double> key = NumbersOf(effects);
+    key.push_back(tolerance);
+    if (!this->Internal->ShadowKey.Holds(scene, key))
+    {
+      this->Internal->Shadows = brume::choose_shadows(
+        this->Internal->Marcher, scene, tolerance, this->NumberOfThreads);
+      this->Internal->ShadowKey.Take(scene, key, false);
+    }
+    shadows = this->Internal->Shadows;
   }
-  settings.shadow_step = this->ShadowSampleDistance;
+  else if (cast)
+  {
+    const brume::ShadowMethod methods[] = { brume::ShadowMethod::None,
+      brume::ShadowMethod::None,
+      brume::ShadowMethod::Rays,
+      brume::ShadowMethod::Volume,
+      brume::ShadowMethod::Functions };
+    shadows.method = methods[this->ShadowMethod];
+    shadows.precise = this->Tolerance < 1e-3;
+  }
+  if (this->ShadowSampleDistance > 0.0)
+  {
+    shadows.step = this->ShadowSampleDistance;
+  }
+  return shadows;
+}
+
+void vtkBrumeRayMarchMapper::ChooseStep(const brume::Scene& scene,
+  const brume::EffectSet& effects,
+  double tolerance,
+  brume::MarchSettings& settings)
+{
+  if (!this->AutoAdjustSampleDistances)
+  {
+    settings.step = this->FixedStep();
+    return;
+  }
+  brume::StepChoice& choice = this->Internal->Choice;
+  std::vector<double> key = NumbersOf(effects);
+  key.insert(key.end(),
+    { tolerance, static_cast<double>(settings.shadows), settings.shadow_step });
+  if (!this->Internal->StepKey.Holds(scene, key))
+  {
+    choice = brume::choose_step(this->Internal->Marcher, scene, tolerance, this->NumberOfThreads,
+      brume::is_lit(scene) ? settings : brume::MarchSettings());
+    this->Internal->StepKey.Take(scene, key, false);
+  }
+  settings.rule = choice.rule;
+  settings.step = choice.step;
+  settings.refinements = choice.refinements;
+  settings.refine_error = choice.refine_error;
 }
 
 bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& whole, brume::Film& film)
 {
-  auto start = std::chrono::steady_clock::now();
-  const auto seconds = [&start]
-  { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  const auto start = std::chrono::steady_clock::now();
   const brume::EffectSet effects = this->PlanEffects(whole);
   // What VTK draws too stays as it is, unless an effect was forced.
   const bool plain = !brume::is_lit(whole) && this->GetEffectPlan()->GetForces().empty();
   const brume::Scene simple = plain ? brume::Scene() : brume::simplified(whole, effects);
   const brume::Scene& scene = plain ? whole : simple;
-  const double secondsPlan = seconds();
-
-  double secondsStep = 0.0;
   brume::MarchSettings settings;
   settings.threads = this->NumberOfThreads;
   settings.leave_error = LeaveShare * this->Tolerance;
   settings.jitter = this->UseJittering != 0;
-  this->ChooseShadows(settings);
+  const brume::ShadowChoice shadows = this->ChooseShadows(scene, effects);
+  settings.shadows = shadows.method;
+  settings.shadow_step = shadows.step;
+  settings.precise_shadows = shadows.precise;
   if (!plain)
   {
     brume::apply_effects(effects, settings);
   }
-  if (this->AutoAdjustSampleDistances)
-  {
-    std::vector<double> key = NumbersOf(effects);
-    key.push_back(this->Tolerance);
-    if (!this->Internal->StepKey.Holds(scene, key))
-    {
-      start = std::chrono::steady_clock::now();
-      const double share = StepShare - (brume::is_lit(scene) ? PlanShare : 0.0);
-      this->Internal->Choice = brume::choose_step(this->Internal->Marcher,
-        scene,
-        std::max(share * this->Tolerance, 1e-9),
-        this->NumberOfThreads);
-      this->Internal->StepKey.Take(scene, key);
-      secondsStep = seconds();
-    }
-    settings.rule = this->Internal->Choice.rule;
-    settings.step = this->Internal->Choice.step;
-    settings.refinements = this->Internal->Choice.refinements;
-    settings.refine_error = this->Internal->Choice.refine_error;
-  }
-  else
-  {
-    settings.step = this->FixedStep();
-  }
+  const double share = brume::is_lit(scene) ? LitStepShare : StepShare;
+  this->ChooseStep(scene, effects, std::max(share * this->Tolerance, 1e-9), settings);
+  const double secondsChoices =
+    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
   const brume::MarchStatistics march = this->Internal->Marcher.render(
     scene, settings, film, [this](double fraction) { return this->TellProgress(fraction); });
@@ -277,7 +299,9 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& whole, brume::Film& film)
 
   if (march.rays == 0)
   {
-    this->Internal->StepKey.Clear(); // nothing was measured
+    // Nothing was measured.
+    this->Internal->StepKey.Clear();
+    this->Internal->ShadowKey.Clear();
     this->Internal->PlanKey.Clear();
   }
 
@@ -286,7 +310,7 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& whole, brume::Film& film)
   statistics["mapper"] = "raymarch";
   statistics["seconds"] = march.seconds;
   statistics["seconds_prepare"] =
-    this->SecondsScene + secondsPlan + secondsStep + march.seconds_prepare;
+    this->SecondsScene + secondsChoices + march.seconds_prepare;
   statistics["samples"] = march.samples;
   statistics["rays"] = march.rays;
   statistics["threads"] = march.threads;
@@ -302,14 +326,20 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& whole, brume::Film& film)
   if (this->AutoAdjustSampleDistances)
   {
     statistics["step_chosen_by"] = "tolerance";
-    statistics["estimated_error"] =
-      this->Internal->Choice.estimated_error + settings.leave_error;
-    statistics["tolerance_met"] = this->Internal->Choice.met;
+    statistics["estimated_error"] = this->Internal->Choice.estimated_error +
+      settings.leave_error + shadows.estimated_error + this->Internal->Plan.error_bound();
+    statistics["tolerance_met"] = this->Internal->Choice.met && shadows.met;
   }
   else
   {
     statistics["step_chosen_by"] =
       this->LockSampleDistanceToInputSpacing ? "input spacing" : "caller";
+  }
+  if (brume::is_lit(scene))
+  {
+    const bool chosen =
+      this->ShadowMethod == AutomaticShadows && !(this->ShadowSampleDistance > 0.0);
+    statistics["shadows_chosen_by"] = chosen ? "tolerance" : "caller";
   }
   statistics["shadow_method"] = brume::shadow_method_name(march.shadows);
   statistics["shadow_step"] = march.shadow_step;

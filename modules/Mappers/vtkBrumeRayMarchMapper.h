@@ -33,6 +33,7 @@ namespace brume
 {
 class EffectSet;
 struct MarchSettings;
+struct ShadowChoice;
 }
 
 class VTKBRUMEMAPPERS_EXPORT vtkBrumeRayMarchMapper : public vtkBrumeVolumeMapper
@@ -47,8 +48,8 @@ public:
    * Whether the mapper looks after quality and speed. On, the default:
    *
    * - Steps are chosen by the tolerance: the cheapest, of 4 to 1/32 of the smallest voxel edge, with
-   *   which the estimated error is within three quarters of Tolerance (half of it with a medium),
-   *   shorter only in the pixels that ask for it where these are few; the choice is made from 4096
+   *   which the estimated error is within three quarters of Tolerance (with a medium a quarter, and
+   *   another for shadows), shorter only in the pixels that ask for it where these are few; the choice is made from 4096
    *   rays of the first picture's camera and kept while data, property, medium, lights and tolerance
    *   stay. Off: always the midpoint rule.
    * - The distance between rays is chosen by the time that VTK allocates to the volume, from
@@ -98,7 +99,8 @@ public:
    * How the light that reaches a place in a medium is found to be dimmed on its way. Without a medium
    * it means nothing.
    *
-   * - Automatic, the default: the cheapest that is within the tolerance.
+   * - Automatic, the default: the cheapest whose error is estimated to be within a quarter of the
+   *   tolerance, by a few hundred rays; chosen anew when the medium changes.
    * - None: matter casts no shadows.
    * - Rays: a ray toward each light from each sample. Right, and dear.
    * - Volume: optical depths toward each light on a grid, kept while lights and medium stay.
@@ -116,7 +118,8 @@ public:
   ///@{
   /**
    * The length of a shadow ray's step, or the distance between the nodes of a shadow volume or map,
-   * in the data's coordinates. Default 0: chosen. Values that are negative or not finite are refused
+   * in the data's coordinates. Default 0: chosen, with AutomaticShadows; else one voxel edge, and
+   * rays through one density go cell by cell, which is exact. Values that are negative or not finite are refused
    * with a warning.
    */
   virtual void SetShadowSampleDistance(double distance);
@@ -235,7 +238,11 @@ private:
 
   double FixedStep();
   brume::EffectSet PlanEffects(const brume::Scene& scene);
-  void ChooseShadows(brume::MarchSettings& settings) const;
+  brume::ShadowChoice ChooseShadows(const brume::Scene& scene, const brume::EffectSet& effects);
+  void ChooseStep(const brume::Scene& scene,
+    const brume::EffectSet& effects,
+    double tolerance,
+    brume::MarchSettings& settings);
 
   vtkTypeBool AutoAdjustSampleDistances = 1;
   double SampleDistance = 1.0;

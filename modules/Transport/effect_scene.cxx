@@ -14,13 +14,13 @@ bool is_black(const glm::dvec3& colour)
   return colour == glm::dvec3(0.0);
 }
 
-glm::dvec3 mean_of_channels(const glm::dvec3& v)
+double mean_of_channels(const glm::dvec3& v)
 {
-  return glm::dvec3((v.x + v.y + v.z) / 3.0);
+  return (v.x + v.y + v.z) / 3.0;
 }
 
 /// Key of a medium that another one was made from, by a change of number `change`. The marcher's
-/// caches must not take the one for the other; 0, which keeps nothing, stays 0.
+/// caches must not take the one for the other; 0, which keeps nothing, stays 0. Doubles hold it.
 std::uint64_t derived_revision(std::uint64_t revision, std::uint64_t change)
 {
   if (revision == 0)
@@ -30,7 +30,7 @@ std::uint64_t derived_revision(std::uint64_t revision, std::uint64_t change)
   std::uint64_t key = revision + change * 0x9e3779b97f4a7c15u; // splitmix64
   key = (key ^ (key >> 30)) * 0xbf58476d1ce4e5b9u;
   key = (key ^ (key >> 27)) * 0x94d049bb133111ebu;
-  return (key ^ (key >> 31)) | 1u << 31;
+  return (key ^ (key >> 31)) >> 11 | 1u << 31;
 }
 
 /// A lit medium that sends nothing on.
@@ -63,10 +63,12 @@ void simplify(Volume& volume, const EffectSet& effects)
   const bool density = volume.meaning == ValueMeaning::Density;
   if (density && !effects.has(Effect::ColouredExtinction))
   {
-    const glm::dvec3 mean = mean_of_channels(volume.density.channels);
-    if (mean != volume.density.channels)
+    // Into the extinction, so that the kernels of one channel serve.
+    const double mean = mean_of_channels(volume.density.channels);
+    if (volume.density.channels != glm::dvec3(1.0))
     {
-      volume.density.channels = mean;
+      volume.density.extinction *= mean;
+      volume.density.channels = glm::dvec3(1.0);
       volume.medium_revision = derived_revision(volume.medium_revision, 1);
     }
   }
@@ -122,7 +124,7 @@ void simplify(Fog& fog, const EffectSet& effects)
   }
   if (!effects.has(Effect::ColouredExtinction))
   {
-    fog.extinction = mean_of_channels(fog.extinction);
+    fog.extinction = glm::dvec3(mean_of_channels(fog.extinction));
   }
   if (!effects.has(Effect::Scattering))
   {

@@ -112,6 +112,14 @@ bool needs_lit_kernels(const Scene& scene)
       });
 }
 
+bool has_exact_shadow_rays(const Scene& scene)
+{
+  const Volume& volume = scene.volumes[0];
+  return scene.volumes.size() == 1 && volume.meaning == ValueMeaning::Density &&
+    !volume.mask.labels && volume.grid.linear &&
+    (!volume.cropping.enabled || volume.cropping.regions == 0x2000);
+}
+
 void LitTables::fill_volume(const Scene& scene, std::size_t k, LitVolume& lit)
 {
   const Volume& volume = scene.volumes[k];
@@ -350,11 +358,8 @@ void LitTables::update(const Scene& scene,
   task.absorption = settings.absorption;
   const double voxel = smallest_edge(scene.volumes[0]);
   const Volume& first = scene.volumes[0];
-  const bool one_density =
-    count == 1 && first.meaning == ValueMeaning::Density && !first.mask.labels && first.grid.linear;
   task.shadows = task.lights.empty() ? ShadowMethod::None : settings.shadows;
-  task.by_cells =
-    settings.shadow_step <= 0.0 && one_density && !task.frames[0].cropped &&
+  task.by_cells = settings.shadow_step <= 0.0 && has_exact_shadow_rays(scene) &&
     task.shadows == ShadowMethod::Rays;
   task.shadow_step = static_cast<float>(settings.shadow_step > 0.0 ? settings.shadow_step : voxel);
 

@@ -44,7 +44,14 @@ bool is_plain(const Volume& volume)
          volume.classification.value_gradient.empty();
 }
 
-Integrator find_integrator(const Scene& scene)
+/// Only the kernels of lit media can let all light through.
+bool takes_lit_kernels(const Scene& scene, bool absorption)
+{
+  return needs_lit_kernels(scene) ||
+         (scene.blend_mode == BlendMode::Composite && !absorption);
+}
+
+Integrator find_integrator(const Scene& scene, bool absorption)
 {
   switch (scene.blend_mode)
   {
@@ -63,7 +70,7 @@ Integrator find_integrator(const Scene& scene)
       return march_slice;
   }
   const bool plain = scene.volumes.size() == 1 && is_plain(scene.volumes[0]);
-  if (needs_lit_kernels(scene))
+  if (takes_lit_kernels(scene, absorption))
   {
     return plain && scene.volumes[0].meaning == ValueMeaning::Density ? march_lit_density
                                                                       : march_lit_mixture;
@@ -330,7 +337,7 @@ MarchStatistics Marcher::render(
   step = std::max(step, shortest);
 
   const auto start_prepare = std::chrono::steady_clock::now();
-  const Integrator integrator = find_integrator(scene);
+  const Integrator integrator = find_integrator(scene, settings.absorption);
   this->Kept->update(scene, threads);
   const RayMaker rays(scene, film.width, film.height);
   std::vector<VolumeTask> volumes;
@@ -350,7 +357,8 @@ MarchStatistics Marcher::render(
     visible_bricks += kept.visible().visible;
   }
   MarchTask common;
-  if (needs_lit_kernels(scene))
+  const bool lit_kernels = takes_lit_kernels(scene, settings.absorption);
+  if (lit_kernels)
   {
     const auto start_light = std::chrono::steady_clock::now();
     LitTables& lit = this->Kept->lit;
@@ -364,7 +372,8 @@ MarchStatistics Marcher::render(
   }
   common.volumes = &volumes;
   common.rays = &rays;
-  common.rule = follows_rule(scene, settings.rule) ? settings.rule : StepRule::Midpoint;
+  common.rule =
+    !lit_kernels && follows_rule(scene, settings.rule) ? settings.rule : StepRule::Midpoint;
   common.mixture = scene.mixture;
   common.step = step;
   common.jitter = settings.jitter && !by_cells;

@@ -138,6 +138,10 @@ private:
 /// Whether a scene can be marched by a rule; where it cannot, Marcher::render takes Midpoint.
 bool follows_rule(const Scene& scene, StepRule rule);
 
+/// Whether shadow rays of a lit scene can go cell by cell, which is exact: through one trilinear
+/// density that is drawn as one box.
+bool has_exact_shadow_rays(const Scene& scene);
+
 /// Names of the SIMD targets that this machine can run, best first.
 std::string simd_targets();
 /// Uses only the target of this name (as simd_targets() has it) from now on; "" for the best again.

@@ -72,7 +72,7 @@ void store(Film& film,
   for (int c = 0; c < 3; ++c)
   {
     film.radiance[c][pixel] = static_cast<float>(result.radiance[c]);
-    film.transmittance[c][pixel] = static_cast<float>(result.transmittance);
+    film.transmittance[c][pixel] = static_cast<float>(result.transmittance[c]);
   }
   film.depth[pixel] = static_cast<float>(result.half_way * ray.world_length);
   film.error[pixel] = static_cast<float>(error);
@@ -95,7 +95,7 @@ std::unique_ptr<RayIntegral> make_ray_integral(const ReferenceScene& scene, cons
     case BlendMode::Slice:
       return make_slice(scene, ray);
   }
-  return make_composite(scene, ray);
+  return scene.lighting ? make_lit(scene, ray) : make_composite(scene, ray);
 }
 
 ReferenceStatistics render_reference(const Scene& scene, const ReferenceSettings& settings,

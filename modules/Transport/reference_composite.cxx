@@ -13,6 +13,20 @@ void pass_sample(const ReferenceScene& scene,
   double width,
   RayResult& result)
 {
+  if (scene.lighting)
+  {
+    const Sent sent = scene.lighting->sent(ray, volumes, count, s, 1, result.samples);
+    for (int c = 0; c < 3; ++c)
+    {
+      const double depth = sent.extinction[c] * width;
+      const double opacity = opacity_from_optical_depth(depth);
+      result.radiance[c] += result.transmittance[c] * sent.radiance[c] * width *
+                            (depth > 0.0 ? opacity / depth : 1.0);
+      result.transmittance[c] -= result.transmittance[c] * opacity;
+    }
+    result.passed(s);
+    return;
+  }
   double sum = 0.0; // optical depths for a way of 1 in s
   double squares = 0.0;
   glm::dvec3 light(0.0);
@@ -35,13 +49,10 @@ void pass_sample(const ReferenceScene& scene,
     return;
   }
   const double depth = scene.scene.mixture == Mixture::Sum ? sum : squares / sum;
-  const double weight = result.transmittance * opacity_from_optical_depth(depth * width);
+  const double weight = result.transmittance.x * opacity_from_optical_depth(depth * width);
   result.radiance += light * (weight / depth);
   result.transmittance -= weight;
-  if (std::isinf(result.half_way) && result.transmittance < 0.5)
-  {
-    result.half_way = s;
-  }
+  result.passed(s);
 }
 
 namespace
@@ -86,7 +97,7 @@ public:
           width,
           result);
       }
-      if (result.transmittance < nothing_passes)
+      if (result.passes() < nothing_passes)
       {
         break;
       }

@@ -92,7 +92,7 @@ RayResult composite_fixed(const ReferenceScene& scene,
         }
       }
       pass_sample(scene, ray, visible.data(), visible.size(), sample.s, sample.width, result);
-      return result.transmittance >= leave_below;
+      return result.passes() >= leave_below;
     });
   return result;
 }
@@ -196,7 +196,7 @@ RayResult fixed(const ReferenceScene& scene,
     result.radiance = glm::clamp(result.radiance, 0.0, 1.0);
     opacity = opacity > 0.0 ? 1.0 : 0.0;
   }
-  result.transmittance = std::max(0.0, 1.0 - opacity);
+  result.transmittance = glm::dvec3(std::max(0.0, 1.0 - opacity));
   return result;
 }
 

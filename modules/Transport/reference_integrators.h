@@ -1,6 +1,7 @@
 // The truth along one ray, a kind for each blend mode. Internal to Transport.
 #pragma once
 
+#include "Transport/reference_lighting.h"
 #include "Transport/reference_medium.h"
 #include "Transport/reference_ray.h"
 
@@ -28,23 +29,42 @@ struct ReferenceScene
     {
       this->media.emplace_back(the_scene, volume);
     }
+    if (needs_lighting(the_scene))
+    {
+      this->lighting = std::make_unique<ReferenceLighting>(the_scene, this->media);
+    }
   }
 
   const Scene& scene;
   std::vector<ReferenceMedium> media;
+  std::unique_ptr<ReferenceLighting> lighting; ///< of lit media and coloured extinction; else null
 };
 
 struct RayResult
 {
   glm::dvec3 radiance{ 0.0 };
-  double transmittance = 1.0;
+  glm::dvec3 transmittance{ 1.0 };
   double half_way = std::numeric_limits<double>::infinity(); ///< s; see Film::depth
   std::uint64_t samples = 0;
 
+  /// The transmittance of the clearest channel.
+  double passes() const
+  {
+    return std::max({ this->transmittance.x, this->transmittance.y, this->transmittance.z });
+  }
   double change_from(const RayResult& other) const
   {
-    const glm::dvec3 d = glm::abs(this->radiance - other.radiance);
-    return std::max({ d.x, d.y, d.z, std::abs(this->transmittance - other.transmittance) });
+    const glm::dvec3 d = glm::max(glm::abs(this->radiance - other.radiance),
+      glm::abs(this->transmittance - other.transmittance));
+    return std::max({ d.x, d.y, d.z });
+  }
+  /// To be called at each s in order: fills in half_way.
+  void passed(double s)
+  {
+    if (std::isinf(this->half_way) && this->passes() < 0.5)
+    {
+      this->half_way = s;
+    }
   }
 };
 
@@ -83,6 +103,8 @@ inline int extra_pieces(double variation)
 constexpr double nothing_passes = 1e-9;
 
 std::unique_ptr<RayIntegral> make_composite(const ReferenceScene& scene, const PixelRay& ray);
+/// Composite with ReferenceScene::lighting.
+std::unique_ptr<RayIntegral> make_lit(const ReferenceScene& scene, const PixelRay& ray);
 std::unique_ptr<RayIntegral> make_extreme(const ReferenceScene& scene, const PixelRay& ray);
 std::unique_ptr<RayIntegral> make_grey(const ReferenceScene& scene, const PixelRay& ray);
 std::unique_ptr<RayIntegral> make_isosurface(const ReferenceScene& scene, const PixelRay& ray);

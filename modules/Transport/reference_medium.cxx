@@ -149,44 +149,72 @@ glm::dvec3 ReferenceMedium::shaded(const glm::dvec3& place,
   return { lit.x, lit.y, lit.z };
 }
 
-Optical ReferenceMedium::at(const glm::dvec3& place, const glm::dvec3& along) const
+void ReferenceMedium::find_extinction(const glm::dvec3& place,
+  bool wants_gradient,
+  FoundMatter& found) const
 {
-  Optical result;
-  const int label = this->label(place);
-  if (label < 0)
-  {
-    return result;
-  }
-  const double value = this->value(place);
+  found.value = this->value(place);
   if (this->Classes.empty())
   {
-    result.extinction = this->TheVolume.density.extinction * std::max(value, 0.0);
-    return result;
+    found.extinction = this->TheVolume.density.extinction * std::max(found.value, 0.0);
+    return;
   }
-  const ReferenceClasses& c = this->Classes[label];
-  glm::dvec3 gradient(0.0);
+  const ReferenceClasses& c = this->Classes[found.label];
   double magnitude = 0.0;
   if (c.two_dimensional())
   {
-    gradient = this->Values->gradient(place);
-    magnitude = c.magnitude(gradient);
+    found.gradient = this->Values->gradient(place);
+    magnitude = c.magnitude(found.gradient);
   }
-  result.extinction = c.extinction(value, magnitude);
-  if (result.extinction <= 0.0)
+  found.extinction = c.extinction(found.value, magnitude);
+  if (found.extinction > 0.0 && !c.two_dimensional() && (c.needs_gradient() || wants_gradient))
+  {
+    found.gradient = this->Values->gradient(place);
+    found.extinction *= c.gradient_factor(c.magnitude(found.gradient));
+  }
+}
+
+double ReferenceMedium::extinction(const glm::dvec3& place) const
+{
+  FoundMatter found;
+  found.label = this->label(place);
+  if (found.label >= 0)
+  {
+    this->find_extinction(place, false, found);
+  }
+  return found.extinction;
+}
+
+FoundMatter ReferenceMedium::matter(const glm::dvec3& place) const
+{
+  FoundMatter found;
+  found.label = this->label(place);
+  if (found.label < 0)
+  {
+    return found;
+  }
+  this->find_extinction(place, this->Shade.enabled, found);
+  if (!this->Classes.empty() && found.extinction > 0.0)
+  {
+    const ReferenceClasses& c = this->Classes[found.label];
+    found.colour = this->colour(
+      c, place, found.value, c.two_dimensional() ? c.magnitude(found.gradient) : 0.0);
+  }
+  return found;
+}
+
+Optical ReferenceMedium::at(const glm::dvec3& place, const glm::dvec3& along) const
+{
+  const FoundMatter found = this->matter(place);
+  Optical result;
+  result.extinction = found.extinction;
+  if (this->Classes.empty() || found.extinction <= 0.0)
   {
     return result;
   }
-  if (!c.two_dimensional() && (c.needs_gradient() || this->Shade.enabled))
-  {
-    gradient = this->Values->gradient(place);
-    magnitude = c.magnitude(gradient);
-    result.extinction *= c.gradient_factor(magnitude);
-  }
-  result.source = this->colour(c, place, value, magnitude);
-  if (this->Shade.enabled)
-  {
-    result.source = this->shaded(place, along, gradient, result.source);
-  }
+  result.source = this->Shade.enabled
+                    ? this->shaded(place, along, found.gradient, found.colour)
+                    : found.colour;
   return result;
 }
 

@@ -24,6 +24,16 @@ struct Optical
   glm::dvec3 source{ 0.0 };
 };
 
+/// What is at a place, before any light.
+struct FoundMatter
+{
+  int label = -1; ///< see ReferenceMedium::label; 0 where there is no mask
+  double value = 0.0;
+  double extinction = 0.0;     ///< per unit of the data's length; without Volume::weight
+  glm::dvec3 colour{ 1.0 };    ///< 1 for densities
+  glm::dvec3 gradient{ 0.0 };  ///< index space; where shading or the functions ask for it
+};
+
 /// Opacity, of no length, and colour.
 struct Tinted
 {
@@ -56,6 +66,10 @@ public:
   /// See ReferenceClasses. 0 for densities.
   double variation(int label, double from, double to) const;
 
+  /// With the gradient's factor. Nothing where the mask hides.
+  FoundMatter matter(const glm::dvec3& place) const;
+  /// The extinction of matter() alone.
+  double extinction(const glm::dvec3& place) const;
   /// With the gradient's factor, and shaded. Nothing where the mask hides.
   Optical at(const glm::dvec3& place, const glm::dvec3& along) const;
   /// What is drawn of a surface through the place where the value is `value`: with the gradient's
@@ -66,8 +80,15 @@ public:
   /// The opacity that projections multiply a value at the place with.
   double projected_opacity(int label, const glm::dvec3& place) const;
 
+  /// Whether the values are a density's.
+  bool is_density() const { return this->Classes.empty(); }
+  const glm::dmat3& world_from_gradient() const { return this->WorldFromGradient; }
+  const ShadeModel& shade() const { return this->Shade; }
+
 private:
   std::size_t brick(const glm::dvec3& place) const;
+  /// Of a place that is not hidden: value, extinction, gradient.
+  void find_extinction(const glm::dvec3& place, bool wants_gradient, FoundMatter& found) const;
   glm::dvec3 colour(const ReferenceClasses& c,
     const glm::dvec3& place,
     double value,

@@ -56,8 +56,8 @@ public:
         result.half_way = found.s;
       }
     }
-    result.transmittance = std::max(0.0, 1.0 - opacity);
-    if (!(result.transmittance < 0.5))
+    result.transmittance = glm::dvec3(std::max(0.0, 1.0 - opacity));
+    if (!(result.passes() < 0.5))
     {
       result.half_way = std::numeric_limits<double>::infinity();
     }
@@ -164,7 +164,7 @@ public:
     if (any)
     {
       result.radiance = glm::dvec3(std::clamp(grey, 0.0, 1.0));
-      result.transmittance = 0.0;
+      result.transmittance = glm::dvec3(0.0);
     }
     return result;
   }

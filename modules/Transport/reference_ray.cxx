@@ -1,5 +1,6 @@
 #include "Transport/reference_ray.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
@@ -57,23 +58,54 @@ std::vector<RayInterval> PixelRay::intervals() const
   return result;
 }
 
+RayFrame::RayFrame(const Volume& the_volume, const glm::dmat4& clip_from_world)
+  : volume(the_volume)
+  , data_from_index(the_volume.data_from_index)
+  , world_from_index(the_volume.world_from_data * the_volume.data_from_index)
+{
+  this->index_from_clip = glm::inverse(clip_from_world * this->world_from_index);
+  this->index_from_world = glm::inverse(this->world_from_index);
+  for (const glm::dvec4& plane : the_volume.clipping_planes)
+  {
+    this->planes.push_back(glm::transpose(this->world_from_index) * plane);
+  }
+}
+
+ReferenceRays::ReferenceRays(const Scene& scene)
+  : ReferenceRays(scene, 1, 1)
+{
+}
+
 ReferenceRays::ReferenceRays(const Scene& scene, int width, int height)
   : TheScene(scene)
   , Width(width)
   , Height(height)
 {
+  std::vector<glm::dvec3> corners;
   for (const Volume& volume : scene.volumes)
   {
-    const glm::dmat4 world_from_index = volume.world_from_data * volume.data_from_index;
-    Frame frame;
-    frame.index_from_clip = glm::inverse(scene.camera.clip_from_world * world_from_index);
-    frame.data_from_index = glm::dmat3(volume.data_from_index);
-    frame.world_from_index = glm::dmat3(world_from_index);
-    for (const glm::dvec4& plane : volume.clipping_planes)
+    this->Frames.emplace_back(volume, scene.camera.clip_from_world);
+    for (int corner = 0; corner < 8; ++corner)
     {
-      frame.planes.push_back(glm::transpose(world_from_index) * plane);
+      glm::dvec4 place(1.0);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        place[axis] = corner >> axis & 1 ? volume.grid.upper(axis) : volume.grid.lower(axis);
+      }
+      corners.emplace_back(this->Frames.back().world_from_index * place);
     }
-    this->Frames.push_back(frame);
+  }
+  glm::dvec3 lower = corners.front();
+  glm::dvec3 upper = corners.front();
+  for (const glm::dvec3& corner : corners)
+  {
+    lower = glm::min(lower, corner);
+    upper = glm::max(upper, corner);
+  }
+  this->Centre = 0.5 * (lower + upper);
+  for (const glm::dvec3& corner : corners)
+  {
+    this->Radius = std::max(this->Radius, glm::distance(corner, this->Centre));
   }
 }
 
@@ -91,23 +123,44 @@ PixelRay ReferenceRays::ray(int x, int y) const
   result.volumes.resize(this->Frames.size());
   for (std::size_t v = 0; v < this->Frames.size(); ++v)
   {
-    const Frame& frame = this->Frames[v];
+    const RayFrame& frame = this->Frames[v];
     const glm::dvec4 h_near = frame.index_from_clip * glm::dvec4(ndc_x, ndc_y, -1.0, 1.0);
     const glm::dvec4 h_far = frame.index_from_clip * glm::dvec4(ndc_x, ndc_y, ndc_far, 1.0);
     VolumeRay& ray = result.volumes[v];
     ray.begin = glm::dvec3(h_near) / h_near.w;
     ray.along = glm::dvec3(h_far) / h_far.w - ray.begin;
     ray.length = glm::length(frame.data_from_index * ray.along);
-    result.world_length = glm::length(frame.world_from_index * ray.along);
+    result.world_begin = glm::dvec3(frame.world_from_index * glm::dvec4(ray.begin, 1.0));
+    result.world_along = glm::dmat3(frame.world_from_index) * ray.along;
+    result.world_length = glm::length(result.world_along);
     if (ndc_far > -1.0 && std::isfinite(ray.length))
     {
-      this->find_parts(this->TheScene.volumes[v], frame, ray);
+      frame.find_parts(ray);
     }
   }
   return result;
 }
 
-void ReferenceRays::find_parts(const Volume& volume, const Frame& frame, VolumeRay& ray) const
+PixelRay ReferenceRays::between(const glm::dvec3& begin, const glm::dvec3& along) const
+{
+  PixelRay result;
+  result.world_begin = begin;
+  result.world_along = along;
+  result.world_length = glm::length(along);
+  result.volumes.resize(this->Frames.size());
+  for (std::size_t v = 0; v < this->Frames.size(); ++v)
+  {
+    const RayFrame& frame = this->Frames[v];
+    VolumeRay& ray = result.volumes[v];
+    ray.begin = glm::dvec3(frame.index_from_world * glm::dvec4(begin, 1.0));
+    ray.along = glm::dmat3(frame.index_from_world) * along;
+    ray.length = glm::length(frame.data_from_index * ray.along);
+    frame.find_parts(ray);
+  }
+  return result;
+}
+
+void RayFrame::find_parts(VolumeRay& ray) const
 {
   RayPart whole{ 0.0, 1.0 };
   // Half spaces offset + s · slope ≥ 0. Where a ray stands still, it is inside or not.
@@ -128,10 +181,10 @@ void ReferenceRays::find_parts(const Volume& volume, const Frame& frame, VolumeR
   };
   for (int axis = 0; axis < 3; ++axis)
   {
-    keep(ray.begin[axis] - volume.grid.lower(axis), ray.along[axis]);
-    keep(volume.grid.upper(axis) - ray.begin[axis], -ray.along[axis]);
+    keep(ray.begin[axis] - this->volume.grid.lower(axis), ray.along[axis]);
+    keep(this->volume.grid.upper(axis) - ray.begin[axis], -ray.along[axis]);
   }
-  for (const glm::dvec4& plane : frame.planes)
+  for (const glm::dvec4& plane : this->planes)
   {
     keep(glm::dot(plane, glm::dvec4(ray.begin, 1.0)), glm::dot(glm::dvec3(plane), ray.along));
   }
@@ -139,7 +192,7 @@ void ReferenceRays::find_parts(const Volume& volume, const Frame& frame, VolumeR
   {
     return;
   }
-  const Cropping& cropping = volume.cropping;
+  const Cropping& cropping = this->volume.cropping;
   if (!cropping.enabled)
   {
     ray.parts.push_back(whole);

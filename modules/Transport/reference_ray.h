@@ -44,34 +44,53 @@ struct PixelRay
 {
   std::vector<VolumeRay> volumes; ///< as many as the scene's
   double world_length = 0.0;      ///< from s = 0 to s = 1
+  glm::dvec3 world_begin{ 0.0 };
+  glm::dvec3 world_along{ 0.0 };
+
+  glm::dvec3 world_place(double s) const { return world_begin + world_along * s; }
   bool empty() const;
   /// Cut wherever a volume begins or ends; in order, without the stretches in which nothing is
   /// drawn.
   std::vector<RayInterval> intervals() const;
 };
 
+/// A volume's place, as rays need it.
+struct RayFrame
+{
+  RayFrame(const Volume& volume, const glm::dmat4& clip_from_world);
+  /// Fills in ray.parts: the volume's box, its clipping planes, its cropping.
+  void find_parts(VolumeRay& ray) const;
+
+  const Volume& volume;
+  glm::dmat4 index_from_clip;
+  glm::dmat4 index_from_world;
+  glm::dmat3 data_from_index;
+  glm::dmat4 world_from_index;
+  std::vector<glm::dvec4> planes; ///< clipping planes in index space
+};
+
+/// Rays of a camera, and rays from anywhere to anywhere.
 class ReferenceRays
 {
 public:
+  /// For rays of no camera.
+  explicit ReferenceRays(const Scene& scene);
   ReferenceRays(const Scene& scene, int width, int height);
   /// The ray through the centre of pixel (x, y), y from the bottom.
   PixelRay ray(int x, int y) const;
+  /// The ray of the world from `begin` (s = 0) to `begin` + `along` (s = 1).
+  PixelRay between(const glm::dvec3& begin, const glm::dvec3& along) const;
+  /// The smallest sphere around the middle of the volumes' boxes that holds them all.
+  const glm::dvec3& centre() const { return this->Centre; }
+  double radius() const { return this->Radius; }
 
 private:
-  struct Frame
-  {
-    glm::dmat4 index_from_clip;
-    glm::dmat3 data_from_index;
-    glm::dmat3 world_from_index;
-    std::vector<glm::dvec4> planes; ///< clipping planes in index space
-  };
-
-  void find_parts(const Volume& volume, const Frame& frame, VolumeRay& ray) const;
-
   const Scene& TheScene;
   int Width;
   int Height;
-  std::vector<Frame> Frames;
+  std::vector<RayFrame> Frames;
+  glm::dvec3 Centre{ 0.0 };
+  double Radius = 0.0;
 };
 
 /// The places where a ray passes from one voxel cell to the next: cuts [from, to] into stretches in

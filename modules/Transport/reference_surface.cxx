@@ -14,10 +14,7 @@ void pass_surface(const Tinted& tinted, double s, RayResult& result)
 {
   result.radiance += tinted.colour * (result.transmittance * tinted.opacity);
   result.transmittance *= 1.0 - tinted.opacity;
-  if (std::isinf(result.half_way) && result.transmittance < 0.5)
-  {
-    result.half_way = s;
-  }
+  result.passed(s);
 }
 
 class IsosurfaceRay final : public RayIntegral
@@ -48,7 +45,7 @@ public:
       CellWalk walk(whole);
       walk.add(this->TheRay, this->Medium.volume());
       RayPart part;
-      while (walk.next(part) && result.transmittance >= nothing_passes)
+      while (walk.next(part) && result.passes() >= nothing_passes)
       {
         if (!(part.from < part.to))
         {

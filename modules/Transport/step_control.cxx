@@ -1,9 +1,8 @@
 #include "Transport/step_control.h"
 
-#include <glm/common.hpp>
+#include "Transport/zoom.h"
+
 #include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vec4.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -29,51 +28,9 @@ double smallest_voxel_edge(const Scene& scene)
 namespace
 {
 
-/// The same view, cut to the rectangle that the grid's box fills. The box of a camera inside it has
-/// none: the whole view then.
-glm::dmat4 zoomed_to_grid(const Scene& scene)
-{
-  const glm::dmat4 clip_from_index = scene.camera.clip_from_world *
-                                     scene.volumes[0].world_from_data *
-                                     scene.volumes[0].data_from_index;
-  glm::dvec2 lower(1e300);
-  glm::dvec2 upper(-1e300);
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    glm::dvec4 place(0.0, 0.0, 0.0, 1.0);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      place[axis] = (corner >> axis) & 1 ? scene.volumes[0].grid.upper(axis)
-                                         : scene.volumes[0].grid.lower(axis);
-    }
-    const glm::dvec4 clip = clip_from_index * place;
-    if (!(clip.w > 0.0))
-    {
-      return scene.camera.clip_from_world;
-    }
-    lower = glm::min(lower, glm::dvec2(clip) / clip.w);
-    upper = glm::max(upper, glm::dvec2(clip) / clip.w);
-  }
-  if (!(lower.x < upper.x && lower.y < upper.y))
-  {
-    return scene.camera.clip_from_world;
-  }
-  const glm::dvec2 scale = 2.0 / (upper - lower);
-  glm::dmat4 zoom(1.0);
-  zoom[0][0] = scale.x;
-  zoom[1][1] = scale.y;
-  zoom[3][0] = -0.5 * (lower.x + upper.x) * scale.x;
-  zoom[3][1] = -0.5 * (lower.y + upper.y) * scale.y;
-  return zoom * scene.camera.clip_from_world;
-}
-
-}
-
-namespace
-{
-
 constexpr int probes = 64; ///< along each side of the picture
 constexpr double longest = 4.0;
+constexpr double longest_lit = 1.0;
 constexpr double shortest = 1.0 / 32.0;
 /// The largest error of all pixels is larger than that of the rays that were looked at.
 constexpr double unseen = 1.5;
@@ -83,18 +40,45 @@ constexpr double most_rays = 0.95;
 /// crossing of a voxel takes cell by cell.
 constexpr double cost_of_integrated = 1.6;
 constexpr double samples_by_cells = 3.5;
+/// Shadows: rays along each side of the picture, for one light; how much larger the error of all
+/// pixels is; the tolerances below which light volumes are of 32 bits, and are not made at all; nodes
+/// of all light volumes that are swept in the time of a picture, and the most of one.
+constexpr double shadow_probes = 20.0;
+constexpr double unseen_shadows = 1.5;
+constexpr double precise_below = 1e-3;
+constexpr double least_of_volumes = 1e-4;
+constexpr double nodes_of_a_picture = 4e6;
+constexpr double nodes_at_most = 2e7;
+constexpr double rounding_of_rays = 1e-5;
+constexpr double shortest_of_shadows = 1.0 / 8.0; ///< voxel edges
+
+bool is_lit(const Scene& scene)
+{
+  return scene.blend_mode == BlendMode::Composite &&
+    std::any_of(
+      scene.volumes.begin(), scene.volumes.end(), [](const Volume& v) { return v.medium.lit; });
+}
 
 /// A few rays of a scene, marched with one step after another.
 class Probe
 {
 public:
-  Probe(Marcher& marcher, const Scene& scene, double tolerance, int threads)
+  Probe(Marcher& marcher,
+    const Scene& scene,
+    double tolerance,
+    int threads,
+    const MarchSettings& base,
+    int rays = probes)
     : TheMarcher(marcher)
     , TheScene(scene)
     , Edge(smallest_voxel_edge(scene))
+    , Rays(rays)
+    , Settings(base)
   {
+    this->Settings.refinements = 0;
+    this->Settings.jitter = false;
     this->TheScene.surface_depth.clear();
-    this->TheScene.camera.clip_from_world = zoomed_to_grid(scene);
+    this->TheScene.camera.clip_from_world = zoomed_to_volumes(scene, 1);
     this->Settings.threads = threads;
     // Rays end where what is behind cannot matter to the estimate.
     this->Settings.leave_error = std::min(0.01 * tolerance, 1e-4);
@@ -102,15 +86,21 @@ public:
 
   Film march(StepRule rule, double step)
   {
-    Film film(probes, probes);
+    Film film(this->Rays, this->Rays);
     this->Settings.rule = rule;
     this->Settings.step = step * this->Edge;
     this->TheMarcher.render(this->TheScene, this->Settings, film);
+    if (this->White == 0.0)
+    {
+      this->White = is_lit(this->TheScene) ? std::max(brightest(film), 1.0) : 1.0;
+    }
     return film;
   }
 
+  MarchSettings& settings() { return this->Settings; }
+
   /// For each pixel the largest change of a channel.
-  static std::vector<double> changes(const Film& a, const Film& b)
+  std::vector<double> changes(const Film& a, const Film& b) const
   {
     std::vector<double> changes(a.size(), 0.0);
     for (std::size_t pixel = 0; pixel < a.size(); ++pixel)
@@ -118,23 +108,35 @@ public:
       for (int c = 0; c < 3; ++c)
       {
         changes[pixel] = std::max({ changes[pixel],
-          std::abs(double(a.radiance[c][pixel]) - b.radiance[c][pixel]),
+          std::abs(double(a.radiance[c][pixel]) - b.radiance[c][pixel]) / this->White,
           std::abs(double(a.transmittance[c][pixel]) - b.transmittance[c][pixel]) });
       }
     }
     return changes;
   }
-  static double change(const Film& a, const Film& b)
+  double change(const Film& a, const Film& b) const
   {
-    const std::vector<double> all = changes(a, b);
+    const std::vector<double> all = this->changes(a, b);
     return *std::max_element(all.begin(), all.end());
   }
 
 private:
+  static double brightest(const Film& film)
+  {
+    float most = 0.0f;
+    for (const std::vector<float>& channel : film.radiance)
+    {
+      most = std::max(most, *std::max_element(channel.begin(), channel.end()));
+    }
+    return most;
+  }
+
   Marcher& TheMarcher;
   Scene TheScene;
   double Edge;
+  int Rays;
   MarchSettings Settings;
+  double White = 0.0;
 };
 
 }
@@ -171,11 +173,98 @@ double scale_of_estimates(const Film& film, const std::vector<double>& errors, d
 
 }
 
-StepChoice choose_step(Marcher& marcher, const Scene& scene, double tolerance, int threads)
+ShadowChoice choose_shadows(Marcher& marcher, const Scene& scene, double tolerance, int threads)
 {
-  Probe probe(marcher, scene, tolerance, threads);
+  ShadowChoice choice;
+  if (!is_lit(scene) || scene.lights.empty())
+  {
+    return choice;
+  }
+  const double edge = smallest_voxel_edge(scene);
+  // Rays toward many lights are dear: fewer of them then.
+  const double lights = static_cast<double>(scene.lights.size());
+  const int rays = std::max(6, static_cast<int>(shadow_probes / std::sqrt(lights)));
+  MarchSettings base;
+  base.precise_shadows = tolerance < precise_below;
+  Probe probe(marcher, scene, tolerance, threads, base, rays);
+  const auto with = [&](ShadowMethod method, double step)
+  {
+    probe.settings().shadows = method;
+    probe.settings().shadow_step = step;
+    return probe.march(StepRule::Midpoint, 1.0);
+  };
+  // By default rays go cell by cell where they can; otherwise by steps, which are found first.
+  const Film truth = with(ShadowMethod::Rays, 0.0);
+  double nodes = 0.0;
+  for (const Volume& volume : scene.volumes)
+  {
+    double cells = 1.0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      cells *= std::max(1.0, volume.grid.upper(axis) - volume.grid.lower(axis)) *
+        glm::length(glm::dvec3(volume.data_from_index[axis])) / edge;
+    }
+    nodes += cells;
+  }
+  double spacing = std::cbrt(nodes * lights / nodes_of_a_picture);
+  spacing = std::clamp(std::exp2(std::ceil(2.0 * std::log2(spacing)) / 2.0), 0.25, 4.0);
+  const bool volumes = tolerance >= least_of_volumes;
+  for (; volumes && nodes / (spacing * spacing * spacing) < nodes_at_most; spacing *= 0.5)
+  {
+    const double error =
+      unseen_shadows * probe.change(with(ShadowMethod::Volume, spacing * edge), truth);
+    if (error <= tolerance)
+    {
+      choice.method = ShadowMethod::Volume;
+      choice.step = spacing * edge;
+      choice.precise = base.precise_shadows;
+      choice.estimated_error = error;
+      return choice;
+    }
+    if (spacing <= 0.25)
+    {
+      break;
+    }
+  }
+  choice.method = ShadowMethod::Rays;
+  choice.precise = true; // the sky's light
+  if (has_exact_shadow_rays(scene))
+  {
+    choice.estimated_error = rounding_of_rays;
+    return choice;
+  }
+  Film longer = truth;
+  for (choice.step = edge;; choice.step *= 0.5)
+  {
+    Film shorter = with(ShadowMethod::Rays, 0.5 * choice.step);
+    choice.estimated_error = 4.0 / 3.0 * unseen_shadows * probe.change(longer, shorter);
+    choice.met = choice.estimated_error <= tolerance;
+    if (choice.met || choice.step <= shortest_of_shadows * edge)
+    {
+      return choice;
+    }
+    longer = std::move(shorter);
+  }
+}
+
+StepChoice choose_step(Marcher& marcher,
+  const Scene& scene,
+  double tolerance,
+  int threads,
+  const MarchSettings& base)
+{
+  // Shadow rays would be dear here, and what bends in a light volume bends for them.
+  MarchSettings cheap = base;
+  if (base.shadows == ShadowMethod::Rays)
+  {
+    cheap.shadows = ShadowMethod::Volume;
+    cheap.shadow_step = 0.0;
+    cheap.precise_shadows = true;
+  }
+  Probe probe(marcher, scene, tolerance, threads, cheap);
   StepChoice choice;
-  double step = longest; // in voxel edges
+  // In voxel edges. Light from one side bends where matter alone does not.
+  double step = is_lit(scene) ? longest_lit : longest;
   Film longer = probe.march(StepRule::Midpoint, step);
   Film shorter;
   double step_of_most = 0.0;  // with which most rays are within the tolerance
@@ -183,7 +272,7 @@ StepChoice choose_step(Marcher& marcher, const Scene& scene, double tolerance, i
   for (;;)
   {
     shorter = probe.march(StepRule::Midpoint, 0.5 * step);
-    std::vector<double> errors = Probe::changes(longer, shorter);
+    std::vector<double> errors = probe.changes(longer, shorter);
     for (double& error : errors)
     {
       error *= 4.0 / 3.0;
@@ -211,7 +300,7 @@ StepChoice choose_step(Marcher& marcher, const Scene& scene, double tolerance, i
     choice.estimated_error = tolerance;
     return choice;
   }
-  if (choice.met && step < longest)
+  if (choice.met && step < (is_lit(scene) ? longest_lit : longest))
   {
     // Twice the step would be too long; some of it is not. Toward longer steps the error may grow
     // faster than with the square: the cube is on the safe side.
@@ -227,7 +316,7 @@ StepChoice choose_step(Marcher& marcher, const Scene& scene, double tolerance, i
   {
     const double other = cost_of_integrated * step;
     const double error =
-      unseen * Probe::change(probe.march(StepRule::Integrated, other), shorter);
+      unseen * probe.change(probe.march(StepRule::Integrated, other), shorter);
     if (error < choice.estimated_error && (error <= tolerance || !choice.met))
     {
       choice.rule = StepRule::Integrated;

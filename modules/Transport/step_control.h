@@ -7,6 +7,28 @@
 namespace brume
 {
 
+/// How the shadows of lit media are made, and what that is expected to cost in accuracy.
+struct ShadowChoice
+{
+  ShadowMethod method = ShadowMethod::None;
+  double step = 0.0;            ///< MarchSettings has these two
+  bool precise = false;
+  double estimated_error = 0.0; ///< largest error of a pixel, as a fraction of white
+  bool met = true;              ///< whether the estimate is within the tolerance asked for
+};
+
+/// The cheapest shadows whose error is expected to be within `tolerance` (a fraction of white, > 0).
+///
+/// Light volumes come first, with as many nodes as take no longer to sweep than a picture takes to
+/// march (a few millions, ¼ to 4 voxel edges apart), then with nodes half as far apart as long as
+/// memory allows. The error is measured: a few hundred rays of the scene's camera are marched with
+/// the light volume and with shadow rays. Where no light volume will do, or for a tolerance below
+/// 1e-4, shadow rays are taken. None where nothing is lit.
+///
+/// It holds for all directions of light and view, nearly: call it again when the media change, not
+/// when lights or camera move.
+ShadowChoice choose_shadows(Marcher& marcher, const Scene& scene, double tolerance, int threads = 0);
+
 /// Steps, and what they are expected to cost in accuracy.
 struct StepChoice
 {
@@ -33,8 +55,16 @@ struct StepChoice
 /// allow, and the pixels whose own estimate tells of a larger error are refined: at `refine_error`,
 /// which is `tolerance` by the scale that estimates and measured errors have on the rays looked at.
 ///
-/// The marcher's caches are brought up to date for the scene, and used.
-StepChoice choose_step(Marcher& marcher, const Scene& scene, double tolerance, int threads = 0);
+/// In lit scenes steps are at most one voxel edge long, and radiance counts as a fraction of the
+/// brightest that these rays meet, where that is above 1.
+///
+/// `base` tells how shadows are made and what is left out. The marcher's caches are brought up to date
+/// for the scene, and used.
+StepChoice choose_step(Marcher& marcher,
+  const Scene& scene,
+  double tolerance,
+  int threads = 0,
+  const MarchSettings& base = {});
 
 /// The smallest edge of a voxel of any of the volumes, in the data's units.
 double smallest_voxel_edge(const Scene& scene);

@@ -1,5 +1,6 @@
 // Uses the installed package as a stranger would: draws a volume with no window, and checks a pixel
-// against Beer and Lambert's law.
+// against Beer and Lambert's law; then lights it, and checks the light that it scatters.
+#include <vtkBrumeMedium.h>
 #include <vtkBrumeRayMarchMapper.h>
 
 #include <vtkCamera.h>
@@ -62,6 +63,29 @@ int main()
     {
       std::cerr << "channel " << c << " should be " << expected[c] << " and " << background[c]
                 << '\n';
+      return 1;
+    }
+  }
+
+  // The same matter, under a headlight, over black: albedo · colour / 4 · ∫ σ e^(−2 σ s) ds, which
+  // is (1 − 1/16) / 2 through the whole cube.
+  vtkNew<vtkBrumeMedium> medium;
+  medium->SetAlbedo(0.8);
+  mapper->SetMedium(medium);
+  const double black[3] = { 0.0, 0.0, 0.0 };
+  if (!mapper->RenderImage(volume, camera, nullptr, 33, 33, black, picture))
+  {
+    return 1;
+  }
+  const double colours[3] = { 1.0, 0.5, 0.0 };
+  for (int c = 0; c < 3; ++c)
+  {
+    const double lit = picture->GetScalarComponentAsDouble(16, 16, 0, c);
+    const double scattered = 0.8 * colours[c] / 4.0 * (1.0 - 1.0 / 16.0) / 2.0;
+    std::cout << lit << '\n';
+    if (std::abs(lit - scattered) > 0.004)
+    {
+      std::cerr << "lit channel " << c << " should be " << scattered << '\n';
       return 1;
     }
   }
