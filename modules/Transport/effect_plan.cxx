@@ -2,10 +2,10 @@
 
 #include "Transport/effect_reasons.h"
 #include "Transport/plan_bounds.h"
+#include "Transport/settle_effects.h"
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace brume
 {
@@ -194,18 +194,11 @@ double EffectPlan::error_bound() const
   return sum;
 }
 
-EffectPlan plan_effects(Marcher& marcher,
-  const Scene& scene,
+EffectPlan settle_effects(const Scene& scene,
+  const PlanFigures& figures,
   double tolerance,
-  const std::map<Effect, bool>& forced,
-  int threads)
+  const std::map<Effect, bool>& forced)
 {
-  if (!(tolerance >= 0.0))
-  {
-    throw std::invalid_argument("the tolerance of a plan must not be negative");
-  }
-  PlanProbe probe;
-  const PlanFigures& figures = probe.look(marcher, scene, threads);
   Settling settling(scene, figures, forced);
   settling.leave_out(share_of_tolerance * tolerance);
   return settling.plan();

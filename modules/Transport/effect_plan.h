@@ -7,6 +7,7 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <string>
 
 namespace brume
@@ -43,14 +44,41 @@ struct EffectPlan
 ///
 /// The figures: optical depths along the view and toward each light are the largest of 4096 rays of
 /// the camera, and of parallel views along the lights; phase functions are looked at over the angles
-/// between the view's rays and the lights. The bounds follow in closed form (docs/theory/light.md).
+/// between the view's rays and the lights. The bounds follow in closed form (docs/theory/plan.md).
 ///
-/// The marcher's caches are brought up to date for the scene, and used.
+/// The marcher's caches are brought up to date for the scene, and used; those of its light stay as they
+/// are. Throws std::invalid_argument for a scene that cannot be drawn (Scene::validate) or a tolerance
+/// that is negative. To plan again and again, use an EffectPlanner.
 EffectPlan plan_effects(Marcher& marcher,
   const Scene& scene,
   double tolerance,
   const std::map<Effect, bool>& forced = {},
   int threads = 0);
+
+/// Plans for one picture after another, and keeps what still holds: the whole plan while scene, camera,
+/// tolerance and forced effects stay; the optical depths toward a light while it and the volumes stay.
+/// So a camera that moves costs one film of 4096 rays and the arithmetic of the bounds, and
+/// the plan is right for where it is; call it for every picture. Of volumes whose revisions are 0
+/// nothing is kept. Voxels are read only where Volume::ranges is null: give it.
+class EffectPlanner
+{
+public:
+  EffectPlanner();
+  ~EffectPlanner();
+  EffectPlanner(const EffectPlanner&) = delete;
+  EffectPlanner& operator=(const EffectPlanner&) = delete;
+
+  /// As plan_effects. The plan stays until the next call.
+  const EffectPlan& plan(Marcher& marcher,
+    const Scene& scene,
+    double tolerance,
+    const std::map<Effect, bool>& forced = {},
+    int threads = 0);
+
+private:
+  struct Kept;
+  std::unique_ptr<Kept> TheKept;
+};
 
 /// The scene without the effects that are off, so that the marcher finds nothing of them and takes
 /// the kernel compiled for what is left. Absorption, shadows and leaping are settings: see

@@ -2,19 +2,13 @@
 
 #include "Transport/black_body.h"
 #include "Transport/exponential_integral.h"
-#include "Transport/phase.h"
-#include "Transport/step_control.h"
 #include "Transport/zoom.h"
 
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace brume
 {
@@ -22,31 +16,9 @@ namespace brume
 namespace
 {
 
-constexpr double pi = 3.14159265358979323846;
-constexpr double even_phase = 1.0 / (4.0 * pi);
-
 glm::dvec3 max_of(const glm::dvec3& a, const glm::dvec3& b)
 {
   return glm::max(a, b);
-}
-
-/// max |p − 1/4π| over a range of angles.
-double largest_deviation(const PhaseModel& model, double least_cosine, double largest_cosine)
-{
-  const double most = largest_phase(model, least_cosine, largest_cosine);
-  // Each part by itself is least at an end of the range, Rayleigh's where cos² is.
-  const bool side = least_cosine <= 0.0 && largest_cosine >= 0.0;
-  const double square =
-    side ? 0.0 : std::min(least_cosine * least_cosine, largest_cosine * largest_cosine);
-  double least = model.isotropic + model.rayleigh * (1.0 + square);
-  for (const PhaseTerm& term : model.terms)
-  {
-    PhaseModel part;
-    part.terms = { term };
-    least += std::min(largest_phase(part, least_cosine, least_cosine),
-      largest_phase(part, largest_cosine, largest_cosine));
-  }
-  return std::max({ most - even_phase, even_phase - least, 0.0 });
 }
 
 /// sup over t in [0, depth] of |e^{−a t} − e^{−b t}|: largest at ln(a/b) / (a − b), if it gets
@@ -74,6 +46,12 @@ double variation(double a, double b, double depth)
   return 2.0 * most - end;
 }
 
+std::vector<double> ends_of(const ChannelRanges::Range& range)
+{
+  return range.lower == range.upper ? std::vector<double>{ range.lower }
+                                    : std::vector<double>{ range.lower, range.upper };
+}
+
 double opacity(double depth)
 {
   return -std::expm1(-depth);
@@ -85,8 +63,9 @@ EffectBounds::EffectBounds(const Scene& scene, const PlanFigures& figures)
   : TheScene(scene)
   , Figures(figures)
   , Gain(scene.mixture == Mixture::Components ? static_cast<double>(scene.volumes.size()) : 1.0)
+  , Channels(channel_ranges(scene))
+  , Light(find_light(scene, figures, Channels))
 {
-  this->find_channels();
   for (std::size_t k = 0; k < scene.volumes.size(); ++k)
   {
     const Volume& volume = scene.volumes[k];
@@ -120,7 +99,7 @@ EffectBounds::EffectBounds(const Scene& scene, const PlanFigures& figures)
     }
     this->Emission.push_back(sent);
   }
-  this->find_rays();
+  this->find_channel_changes();
   if (!scene.surface_depth.empty())
   {
     double farthest = -1.0;
@@ -134,39 +113,17 @@ EffectBounds::EffectBounds(const Scene& scene, const PlanFigures& figures)
   }
 }
 
-void EffectBounds::find_channels()
+void EffectBounds::find_channel_changes()
 {
-  constexpr double infinite = std::numeric_limits<double>::infinity();
-  for (Range& range : this->Channels)
-  {
-    range = { infinite, 0.0 };
-  }
-  this->Mean = { infinite, 0.0 };
-  for (const Volume& volume : this->TheScene.volumes)
-  {
-    const bool density = volume.meaning == ValueMeaning::Density;
-    const glm::dvec3 channels = density ? volume.density.channels : glm::dvec3(1.0);
-    const double mean = (channels.x + channels.y + channels.z) / 3.0;
-    const auto include = [](Range& range, double value)
-    {
-      range.lower = std::min(range.lower, value);
-      range.upper = std::max(range.upper, value);
-    };
-    for (int c = 0; c < 3; ++c)
-    {
-      include(this->Channels[c], channels[c]);
-    }
-    include(this->Mean, mean);
-  }
   const double toward =
     this->Figures.lights.empty()
       ? 0.0
       : *std::max_element(this->Figures.lights.begin(), this->Figures.lights.end());
   for (int c = 0; c < 3; ++c)
   {
-    for (const double a : { this->Channels[c].lower, this->Channels[c].upper })
+    for (const double a : ends_of(this->Channels.of[c]))
     {
-      for (const double b : { this->Mean.lower, this->Mean.upper })
+      for (const double b : ends_of(this->Channels.mean))
       {
         this->ShadowChange[c] = std::max(this->ShadowChange[c], largest_difference(a, b, toward));
         for (int i = 0; i <= 32 && a != b; ++i)
@@ -182,231 +139,9 @@ void EffectBounds::find_channels()
   }
 }
 
-double EffectBounds::thickest_channel() const
+ChannelRanges::Range EffectBounds::channel(int c, const EffectSet& on) const
 {
-  return std::max({ this->Channels[0].upper, this->Channels[1].upper, this->Channels[2].upper });
-}
-
-bool EffectBounds::inside(std::size_t ray, double& from, double& to) const
-{
-  const ViewFigures& view = this->Figures.view;
-  from = std::numeric_limits<double>::infinity();
-  to = -from;
-  for (const Volume& volume : this->TheScene.volumes)
-  {
-    const glm::dmat4 index_from_world =
-      glm::inverse(volume.world_from_data * volume.data_from_index);
-    const glm::dvec3 origin(index_from_world * glm::dvec4(view.origin[ray], 1.0));
-    const glm::dvec3 way(index_from_world * glm::dvec4(view.direction[ray], 0.0));
-    double enter = 0.0;
-    double leave = view.reach[ray];
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      // Some way beyond, for the rays between this one and its neighbours.
-      const double size = volume.grid.upper(axis) - volume.grid.lower(axis);
-      const double margin = size / ViewFigures::edge;
-      double a = (volume.grid.lower(axis) - margin - origin[axis]) / way[axis];
-      double b = (volume.grid.upper(axis) + margin - origin[axis]) / way[axis];
-      if (way[axis] == 0.0)
-      {
-        const bool between = origin[axis] >= volume.grid.lower(axis) - margin &&
-                             origin[axis] <= volume.grid.upper(axis) + margin;
-        a = between ? -std::numeric_limits<double>::infinity() : leave + 1.0;
-        b = between ? std::numeric_limits<double>::infinity() : leave + 1.0;
-      }
-      enter = std::max(enter, std::min(a, b));
-      leave = std::min(leave, std::max(a, b));
-    }
-    if (enter < leave)
-    {
-      from = std::min(from, enter);
-      to = std::max(to, leave);
-    }
-  }
-  return from < to;
-}
-
-EffectBounds::LightOnRay EffectBounds::light_on_ray(const Light& light, std::size_t ray) const
-{
-  const ViewFigures& view = this->Figures.view;
-  const glm::dvec3& direction = view.direction[ray];
-  const auto angle_of = [&](const glm::dvec3& travel)
-  { return std::acos(std::clamp(-glm::dot(travel, direction), -1.0, 1.0)); };
-  LightOnRay result;
-  const auto between = [&](double a, double b, double margin)
-  {
-    result.largest_cosine = std::cos(std::max(0.0, std::min(a, b) - margin));
-    result.least_cosine = std::cos(std::min(pi, std::max(a, b) + margin));
-  };
-  if (!light.positional)
-  {
-    const double angle = angle_of(glm::normalize(light.direction));
-    between(angle, angle, view.angle);
-    result.strength = 1.0;
-    return result;
-  }
-  double from = 0.0;
-  double to = 0.0;
-  if (!this->inside(ray, from, to))
-  {
-    return result;
-  }
-  // s: from the place nearest to the lamp, whose distance is `aside`.
-  const glm::dvec3 offset = light.position - view.origin[ray];
-  const double middle = glm::dot(offset, direction);
-  const double begin = from - middle;
-  const double end = to - middle;
-  const double width = view.width + view.angle * to;
-  const double aside = std::max(0.0, glm::length(offset - direction * middle) - width);
-  const double beyond = std::max({ begin, -end, 0.0 });
-  const double nearest = std::sqrt(aside * aside + beyond * beyond);
-  const auto travel = [&](double s)
-  {
-    const glm::dvec3 way = direction * (s + middle) - offset;
-    const double length = glm::length(way);
-    return length > 0.0 ? way / length : direction;
-  };
-  const double turn = nearest > width ? view.angle + std::asin(width / nearest) : pi;
-  between(angle_of(travel(begin)), angle_of(travel(end)), turn);
-
-  const glm::dvec3& a = light.attenuation;
-  const double strongest = 1.0 / std::max(a.x + a.y * nearest + a.z * nearest * nearest, 1e-12);
-  result.strength = strongest;
-  if (a.z > 0.0)
-  {
-    // ∫ ds / (a + c (aside² + s²)), times the largest extinction, is a bound of its own.
-    const double least = 1e-6 * view.edge_of_voxel;
-    const double r = std::sqrt(std::max(aside * aside + a.x / a.z, least * least));
-    const double integral = (std::atan(end / r) - std::atan(begin / r)) / (a.z * r);
-    double extinction = 0.0;
-    double least_channel = this->Mean.lower;
-    double largest_channel = this->Mean.upper;
-    for (const Range& range : this->Channels)
-    {
-      least_channel = std::min(least_channel, range.lower);
-      largest_channel = std::max(largest_channel, range.upper);
-    }
-    for (std::size_t k = 0; k < this->TheScene.volumes.size(); ++k)
-    {
-      const glm::dmat3 data_from_world =
-        glm::inverse(glm::dmat3(this->TheScene.volumes[k].world_from_data));
-      extinction += this->Figures.matter[k].extinction * glm::length(data_from_world * direction);
-    }
-    const double weight = opacity(least_channel * view.depth[ray]);
-    if (weight > 0.0)
-    {
-      result.strength = std::min(strongest, largest_channel * extinction * integral / weight);
-    }
-  }
-  return result;
-}
-
-void EffectBounds::find_rays()
-{
-  const std::size_t rays = this->Figures.view.depth.size();
-  const std::vector<Volume>& volumes = this->TheScene.volumes;
-  const std::vector<Light>& all = this->TheScene.lights;
-  struct Prepared
-  {
-    double attenuation;
-    double contribution;
-    PhaseModel phase;
-  };
-  std::vector<std::vector<Prepared>> octaves(volumes.size());
-  std::vector<PhaseModel> linings(volumes.size());
-  bool shaded = false;
-  for (std::size_t k = 0; k < volumes.size(); ++k)
-  {
-    const Medium& medium = volumes[k].medium;
-    shaded = shaded || volumes[k].shading.enabled;
-    if (!medium.lit)
-    {
-      continue;
-    }
-    double a = 1.0;
-    double b = 1.0;
-    double c = 1.0;
-    for (int m = 0; m < medium.octaves.count; ++m)
-    {
-      octaves[k].push_back({ a, b, prepare_phase(medium.lobes, c) });
-      a *= medium.octaves.attenuation;
-      b *= medium.octaves.contribution;
-      c *= medium.octaves.anisotropy;
-    }
-    add_silver_lining(medium.silver_lining, linings[k]);
-  }
-  this->Sources.assign(volumes.size(), {});
-  for (std::size_t k = 0; k < volumes.size(); ++k)
-  {
-    this->Sources[k].resize(volumes[k].medium.lit ? rays : 0);
-  }
-  this->Shadings.resize(shaded ? rays : 0);
-  for (const Light& light : all)
-  {
-    this->Lamps = this->Lamps || light.positional;
-  }
-  for (std::size_t l = 0; l < all.size(); ++l)
-  {
-    // What of the light each octave can lose on its way, R, G, B.
-    glm::dvec3 depth;
-    for (int c = 0; c < 3; ++c)
-    {
-      depth[c] = this->Figures.lights[l] * std::max(this->Channels[c].upper, this->Mean.upper);
-    }
-    const auto dimmed = [&](double attenuation)
-    {
-      return glm::dvec3(opacity(attenuation * depth.x),
-        opacity(attenuation * depth.y),
-        opacity(attenuation * depth.z));
-    };
-    for (std::size_t ray = 0; ray < rays; ++ray)
-    {
-      if (!(this->Figures.view.depth[ray] > 0.0))
-      {
-        continue;
-      }
-      const LightOnRay here = this->light_on_ray(all[l], ray);
-      if (shaded)
-      {
-        this->Shadings[ray].diffuse.add(all[l].diffuse * here.strength, dimmed(1.0));
-        this->Shadings[ray].specular.add(all[l].specular * here.strength, dimmed(1.0));
-      }
-      const glm::dvec3 irradiance = all[l].diffuse * (pi * here.strength);
-      for (std::size_t k = 0; k < volumes.size(); ++k)
-      {
-        for (std::size_t m = 0; m < octaves[k].size(); ++m)
-        {
-          const Prepared& octave = octaves[k][m];
-          const glm::dvec3 light = irradiance * octave.contribution;
-          RaySource& source = this->Sources[k][ray];
-          const int part = m > 0;
-          const glm::dvec3 lost = dimmed(octave.attenuation);
-          source.even[part].add(light * even_phase, lost);
-          if (octave.phase.is_isotropic())
-          {
-            source.lobes[part].add(light * octave.phase.isotropic, lost);
-            source.deviation[part] += light * std::abs(octave.phase.isotropic - even_phase);
-            continue;
-          }
-          source.lobes[part].add(
-            light * largest_phase(octave.phase, here.least_cosine, here.largest_cosine), lost);
-          source.deviation[part] +=
-            light * largest_deviation(octave.phase, here.least_cosine, here.largest_cosine);
-        }
-        if (volumes[k].medium.lit && volumes[k].medium.silver_lining.enabled)
-        {
-          this->Sources[k][ray].lining.add(
-            irradiance * largest_phase(linings[k], here.least_cosine, here.largest_cosine),
-            dimmed(1.0));
-        }
-      }
-    }
-  }
-}
-
-EffectBounds::Range EffectBounds::channel(int c, const EffectSet& on) const
-{
-  return on.has(Effect::ColouredExtinction) ? this->Channels[c] : this->Mean;
+  return on.has(Effect::ColouredExtinction) ? this->Channels.of[c] : this->Channels.mean;
 }
 
 double EffectBounds::weight(std::size_t ray, int c, const EffectSet& on) const
@@ -445,7 +180,7 @@ glm::dvec3 EffectBounds::lights(const Volume& volume,
 
 glm::dvec3 EffectBounds::shaded(const Volume& volume, std::size_t ray, bool dimmed) const
 {
-  const RayShading& light = this->Shadings[ray];
+  const RayShading& light = this->Light.shadings[ray];
   const Shading& s = volume.shading;
   const glm::dvec3 diffuse = dimmed ? light.diffuse.dimmed : light.diffuse.all;
   return s.diffuse * diffuse + (dimmed ? glm::dvec3(0.0) : s.ambient * s.ambient_light);
@@ -463,9 +198,9 @@ glm::dvec3 EffectBounds::scattered(std::size_t k, std::size_t ray, const EffectS
   if (surface && on.has(Effect::GradientShading))
   {
     return this->tint(k) * (around + this->shaded(volume, ray, false)) +
-           volume.shading.specular * this->Shadings[ray].specular.all;
+           volume.shading.specular * this->Light.shadings[ray].specular.all;
   }
-  return this->tint(k) * (around + this->lights(volume, this->Sources[k][ray], on));
+  return this->tint(k) * (around + this->lights(volume, this->Light.sources[k][ray], on));
 }
 
 glm::dvec3 EffectBounds::emitted(std::size_t ray, const EffectSet& on) const
@@ -488,7 +223,7 @@ glm::dvec3 EffectBounds::emitted(std::size_t ray, const EffectSet& on) const
         const bool surface = volume.shading.enabled && on.has(Effect::GradientShading);
         sent[c] =
           weight * (surface ? colour * this->shaded(volume, ray, false)[c] +
-                                volume.shading.specular * this->Shadings[ray].specular.all[c]
+                                volume.shading.specular * this->Light.shadings[ray].specular.all[c]
                             : colour);
       }
       else if (volume.meaning == ValueMeaning::Classified)
@@ -569,7 +304,7 @@ glm::dvec3 EffectBounds::change_by_shading(std::size_t ray, const EffectSet& on)
         max_of(glm::abs(1.0 - least), glm::abs(this->shaded(volume, ray, false) - 1.0));
       most = max_of(most,
         this->Figures.matter[k].colour * factor +
-          volume.shading.specular * this->Shadings[ray].specular.all);
+          volume.shading.specular * this->Light.shadings[ray].specular.all);
     }
   }
   return most;
@@ -585,13 +320,13 @@ glm::dvec3 EffectBounds::change_by_channels(std::size_t ray, const EffectSet& on
   glm::dvec3 result(0.0);
   for (int c = 0; c < 3; ++c)
   {
-    const Range& coloured = this->Channels[c];
-    const Range& mean = this->Mean;
+    const ChannelRanges::Range& coloured = this->Channels.of[c];
+    const ChannelRanges::Range& mean = this->Channels.mean;
     double view = 0.0;  // of the transmittance
     double share = 0.0; // of σ T along the ray
-    for (const double a : { coloured.lower, coloured.upper })
+    for (const double a : ends_of(coloured))
     {
-      for (const double b : { mean.lower, mean.upper })
+      for (const double b : ends_of(mean))
       {
         view = std::max(view, largest_difference(a, b, depth));
         share = std::max(share, absorbs ? variation(a, b, depth) : std::abs(a - b) * depth);
@@ -661,7 +396,7 @@ glm::dvec3 EffectBounds::change(Effect effect, std::size_t ray, const EffectSet&
     {
       if (volumes[k].medium.lit && on.has(Effect::Scattering))
       {
-        most = max_of(most, of_volume(k, this->Sources[k][ray]));
+        most = max_of(most, of_volume(k, this->Light.sources[k][ray]));
       }
     }
     return weighted(most);
@@ -677,7 +412,7 @@ glm::dvec3 EffectBounds::change(Effect effect, std::size_t ray, const EffectSet&
     case Effect::Absorption:
     {
       const glm::dvec3 all = this->radiance(ray, without);
-      const glm::dvec3 some = this->Lamps ? glm::dvec3(0.0) : this->radiance(ray, on);
+      const glm::dvec3 some = this->Light.lamps ? glm::dvec3(0.0) : this->radiance(ray, on);
       for (int c = 0; c < 3; ++c)
       {
         const double passes = opacity(this->channel(c, on).upper * this->Figures.view.depth[ray]);
@@ -714,7 +449,7 @@ glm::dvec3 EffectBounds::change(Effect effect, std::size_t ray, const EffectSet&
           if (is_surface(k))
           {
             return this->tint(k) * this->shaded(volumes[k], ray, true) +
-                   volumes[k].shading.specular * this->Shadings[ray].specular.dimmed;
+                   volumes[k].shading.specular * this->Light.shadings[ray].specular.dimmed;
           }
           const RaySource::Sum* sum = phase ? source.lobes : source.even;
           glm::dvec3 lost = sum[0].dimmed;

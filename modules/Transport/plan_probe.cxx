@@ -397,9 +397,8 @@ void PlanProbe::look_at_view(Marcher& marcher, int threads)
   }
 }
 
-const PlanFigures& PlanProbe::look(Marcher& marcher, const Scene& scene, int threads)
+PlanKey PlanProbe::matter_key(const Scene& scene)
 {
-  scene.validate();
   PlanKey key;
   key.add(static_cast<std::uint64_t>(scene.mixture));
   key.add(static_cast<std::uint64_t>(scene.blend_mode));
@@ -419,6 +418,7 @@ const PlanFigures& PlanProbe::look(Marcher& marcher, const Scene& scene, int thr
       key.add(volume.cropping.lower[axis]);
       key.add(volume.cropping.upper[axis]);
     }
+    key.add(std::uint64_t{ volume.clipping_planes.size() });
     for (const glm::dvec4& plane : volume.clipping_planes)
     {
       key.add(glm::dvec3(plane));
@@ -429,6 +429,13 @@ const PlanFigures& PlanProbe::look(Marcher& marcher, const Scene& scene, int thr
   {
     key.add(++this->Unkept);
   }
+  return key;
+}
+
+const PlanFigures& PlanProbe::look(Marcher& marcher, const Scene& scene, int threads)
+{
+  scene.validate();
+  const PlanKey key = this->matter_key(scene);
   this->look_at_values(scene, threads);
   if (!(key == this->MatterKey))
   {

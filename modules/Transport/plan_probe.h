@@ -73,6 +73,10 @@ class PlanProbe
 public:
   const PlanFigures& look(Marcher& marcher, const Scene& scene, int threads);
 
+  /// What optical depths hang on but for camera and lights; unlike all others where nothing may be
+  /// kept.
+  PlanKey matter_key(const Scene& scene);
+
 private:
   void look_at_values(const Scene& scene, int threads);
   void look_at_lights(Marcher& marcher, int threads);

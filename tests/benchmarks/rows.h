@@ -13,6 +13,8 @@ namespace benchmarks
 void add_render_rows(Scenes& scenes, std::vector<Row>& rows);
 /// Against the machine: threads, fetches.
 void add_machine_rows(Scenes& scenes, std::vector<Row>& rows);
+/// Light in a medium.
+void add_light_rows(Scenes& scenes, std::vector<Row>& rows);
 /// Large and sparse volumes, and memory.
 void add_memory_rows(Scenes& scenes, std::vector<Row>& rows);
 

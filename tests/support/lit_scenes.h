@@ -91,15 +91,14 @@ inline double phase(const Medium& medium, double cosine, double factor = 1.0)
   return sum / weights;
 }
 
-/// A homogeneous slab, 0 ≤ z ≤ 1, so wide that nothing of its sides is seen.
+/// A homogeneous slab, 0 ≤ z ≤ 1, that has to be so wide that nothing of its sides is seen.
 struct Slab
 {
-  static constexpr double width = 256.0;
   Voxels<float> voxels{ 3, 3, 5, [](int, int, int) { return 0.5f; } };
   Scene scene;
 
   /// `depth`: its optical depth straight through.
-  explicit Slab(const glm::dvec3& depth)
+  explicit Slab(const glm::dvec3& depth, double width = 256.0)
   {
     Volume& volume = scene.volumes[0];
     volume.grid = voxels.grid();
@@ -173,9 +172,9 @@ inline Draw by_reference(double tolerance, int most_pieces = 64)
   };
 }
 
-/// The marcher's picture with steps of `step` and shadow rays, which it takes cell by cell where it
-/// can.
-inline Draw by_shadow_rays(double step)
+/// The marcher's picture with steps of `step`. Shadow rays go cell by cell where they can, unless
+/// `shadow_step` tells otherwise.
+inline Draw by_marcher(ShadowMethod shadows, double step, double shadow_step = 0.0)
 {
   return [=](const Scene& scene, int width, int height)
   {
@@ -183,10 +182,15 @@ inline Draw by_shadow_rays(double step)
     MarchSettings settings;
     settings.step = step;
     settings.leave_error = 0.0;
-    settings.shadows = ShadowMethod::Rays;
+    settings.shadows = shadows;
+    settings.shadow_step = shadow_step;
+    settings.precise_shadows = true;
     Marcher marcher;
     const MarchStatistics statistics = marcher.render(scene, settings, film);
-    EXPECT_EQ(statistics.shadows, scene.lights.empty() ? statistics.shadows : ShadowMethod::Rays);
+    if (!scene.lights.empty() && scene.volumes[0].medium.lit)
+    {
+      EXPECT_EQ(statistics.shadows, shadows);
+    }
     return film;
   };
 }
