@@ -1,13 +1,13 @@
 #include "vtkBrumeVolumeMapper.h"
 
 #include "fog_from_vtk.h"
+#include "fog_internals.h"
 #include "ignored_settings.h"
 #include "image_sampling.h"
 #include "scene_from_vtk.h"
 #include "surface_depth.h"
 #include "volume_group.h"
 #include "vtkBrumeFilmBlender.h"
-#include "vtkBrumeFog.h"
 
 #include "Transport/film.h"
 
@@ -49,6 +49,7 @@ struct vtkBrumeVolumeMapper::Internals
   vtkNew<vtkBrumeFilmBlender> Blender;
   brume::Film Film;
   vtkSmartPointer<vtkImageData> Mask;
+  std::vector<float> SurfaceDepth; ///< of renders without a window
   vtkSmartPointer<vtkBrumeMedium> Medium;
   vtkSmartPointer<vtkBrumeSky> Sky;
   vtkSmartPointer<vtkBrumeFog> Fog;
@@ -214,8 +215,33 @@ double vtkBrumeVolumeMapper::GetSecondsOfPicture(vtkRenderer* renderer, vtkVolum
 const brume::Scene* vtkBrumeVolumeMapper::UpdateScene(
   vtkVolume* volume, vtkCamera* camera, vtkLightCollection* lights, int width, int height)
 {
-  return this->UpdateScene(volume, {}, this->Internal->Fog,
-    { camera, lights, width, height, this->TwoSidedLighting != 0 });
+  return this->WithSurfaceDepth(
+    this->UpdateScene(
+      volume, {}, this->Internal->Fog, { camera, lights, width, height, this->TwoSidedLighting != 0 }), width,
+    height);
+}
+
+void vtkBrumeVolumeMapper::SetSurfaceDepth(std::vector<float> depth)
+{
+  this->Internal->SurfaceDepth = std::move(depth);
+  this->Modified();
+}
+
+brume::Scene* vtkBrumeVolumeMapper::WithSurfaceDepth(brume::Scene* scene, int width, int height)
+{
+  const std::vector<float>& depth = this->Internal->SurfaceDepth;
+  if (!scene || depth.empty())
+  {
+    return scene;
+  }
+  if (depth.size() != static_cast<std::size_t>(width) * height)
+  {
+    vtkErrorMacro("The surfaces' depth has " << depth.size() << " pixels, and the picture "
+                                             << static_cast<std::size_t>(width) * height << ".");
+    return nullptr;
+  }
+  scene->surface_depth = depth;
+  return scene;
 }
 
 brume::Scene* vtkBrumeVolumeMapper::UpdateScene(vtkVolume* volume, const brume::ViewFromVTK& view)
@@ -340,8 +366,11 @@ bool vtkBrumeVolumeMapper::RenderUpdated(brume::Scene& scene, brume::Film& film)
 bool vtkBrumeVolumeMapper::RenderFilm(
   vtkVolume* volume, vtkCamera* camera, vtkLightCollection* lights, brume::Film& film)
 {
-  brume::Scene* scene = this->UpdateScene(volume, {}, this->Internal->Fog,
-    { camera, lights, film.width, film.height, this->TwoSidedLighting != 0 });
+  brume::Scene* scene = this->WithSurfaceDepth(
+    this->UpdateScene(
+      volume, {}, this->Internal->Fog,
+      { camera, lights, film.width, film.height, this->TwoSidedLighting != 0 }),
+    film.width, film.height);
   if (!scene)
   {
     return false;
@@ -375,8 +404,11 @@ bool vtkBrumeVolumeMapper::RenderFilm(vtkVolumeCollection* volumes,
       first ? others.push_back(volume) : static_cast<void>(first = volume);
     }
   }
-  brume::Scene* scene = this->UpdateScene(first, others, this->Internal->Fog,
-    { camera, lights, film.width, film.height, this->TwoSidedLighting != 0 });
+  brume::Scene* scene = this->WithSurfaceDepth(
+    this->UpdateScene(
+      first, others, this->Internal->Fog,
+      { camera, lights, film.width, film.height, this->TwoSidedLighting != 0 }),
+    film.width, film.height);
   if (!scene)
   {
     return false;

@@ -292,6 +292,14 @@ public:
     brume::Film& film);
 
   /**
+   * Opaque geometry for renders without a window: for each pixel the normalised device depth of the
+   * nearest surface, in [-1, 1] (1: none), rows from the bottom up, as many as the film has. Rays end
+   * there. Default empty: none. A render of another size fails with a vtkErrorMacro. In a window the
+   * renderer's own depth counts.
+   */
+  void SetSurfaceDepth(std::vector<float> depth);
+
+  /**
    * The scene as Transport sees it, brought up to date for a picture of this size; for measuring
    * pictures against brume::render_reference. Null, after a vtkErrorMacro, where there is nothing to
    * draw. Valid until the next call of any method of the mapper or change of its input.
@@ -368,6 +376,8 @@ private:
     const std::vector<vtkVolume*>& others,
     const brume::ViewFromVTK& view);
   bool RenderUpdated(brume::Scene& scene, brume::Film& film);
+  /// The scene with the surfaces of SetSurfaceDepth; null where they are of another size.
+  brume::Scene* WithSurfaceDepth(brume::Scene* scene, int width, int height);
   void WarnOfIgnoredSettings(vtkVolume* volume, int components);
   static bool MayJoin(vtkVolume* first, vtkVolume* other);
   /// Whether it is drawn as one with other volumes and fog.
