@@ -161,7 +161,7 @@ private:
         LightOnRay here = shared;
         if (light.positional)
         {
-          here = this->lamp_on_ray(light, ray);
+          here = this->lamp_on_ray(l, ray);
           std::fill(sums.begin(), sums.end(), RaySource());
           this->add_phases(l, here, sums);
         }
@@ -238,8 +238,9 @@ private:
     result.least_cosine = std::cos(std::min(pi, std::max(a, b) + margin));
   }
 
-  LightOnRay lamp_on_ray(const Light& light, std::size_t ray) const
+  LightOnRay lamp_on_ray(std::size_t l, std::size_t ray) const
   {
+    const Light& light = this->TheScene.lights[l];
     LightOnRay result;
     double from = 0.0;
     double to = 0.0;
@@ -258,7 +259,8 @@ private:
     const double width = view.width + view.angle * to;
     const double aside = std::max(0.0, glm::length(offset - direction * middle) - width);
     const double beyond = std::max({ begin, -end, 0.0 });
-    const double nearest = std::sqrt(aside * aside + beyond * beyond);
+    const double clear = this->Figures.clearance[l];
+    const double nearest = std::max(clear, std::sqrt(aside * aside + beyond * beyond));
     const auto travel = [&](double s)
     {
       const glm::dvec3 way = direction * (s + middle) - offset;
@@ -275,7 +277,12 @@ private:
       // The largest extinction times ∫ ds / (a + c (aside² + s²)) is a bound of its own.
       const double least = 1e-6 * view.edge_of_voxel;
       const double r = std::sqrt(std::max(aside * aside + a.x / a.z, least * least));
-      const double integral = (std::atan(end / r) - std::atan(begin / r)) / (a.z * r);
+      double integral = (std::atan(end / r) - std::atan(begin / r)) / (a.z * r);
+      if (clear > 0.0) // there d² ≥ (clear² + s²) / 2
+      {
+        integral = std::min(
+          integral, 2.0 * (std::atan(end / clear) - std::atan(begin / clear)) / (a.z * clear));
+      }
       double least_channel = this->Channels.mean.lower;
       double largest_channel = this->Channels.mean.upper;
       for (const ChannelRanges::Range& channel : this->Channels.of)
