@@ -1,5 +1,7 @@
 #include "call_error.h"
 
+#include "option_checks.h"
+
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -57,7 +59,20 @@ std::string unknown(const CLI::App& program, const std::string& word)
   {
     return word + ": there is no such subcommand";
   }
-  return word + (option ? ": there is no such option" : ": one argument too many");
+  if (!option)
+  {
+    return word + ": one argument too many";
+  }
+  std::vector<std::string> names;
+  for (const CLI::Option* known : called(program).get_options())
+  {
+    for (const std::string& name : known->get_lnames())
+    {
+      names.push_back("--" + name);
+    }
+  }
+  const std::string nearest = nearest_name(word.substr(0, word.find('=')), names);
+  return word + ": there is no such option" + (nearest.empty() ? "" : ", perhaps " + nearest);
 }
 
 /// What stands before ": " in a message of CLI11, an option's name in most.

@@ -45,6 +45,7 @@ public:
 // A callback returns when it is done and throws Failure when it cannot do its work.
 void add_compare(CLI::App& program);
 void add_info(CLI::App& program);
+void add_plan(CLI::App& program);
 void add_render(CLI::App& program);
 
 }

@@ -241,12 +241,8 @@ void write_outputs(const OutputFolder& folder, const Comparison& comparison,
 void run(const Options& options)
 {
   const std::vector<MapperName> wanted = wanted_mappers(options);
-  check(options.scene.modes);
-  if (options.scene.extinction > 0.0)
-  {
-    throw Failure("--extinction", "VTK's own mappers do not draw densities",
-      "leave it out, or use brume render", BadCall);
-  }
+  check(options.scene);
+  refuse_beyond_stock_mappers(options.scene, "leave it out, or use brume render");
   if (!options.scene.preset.empty())
   {
     find_preset(options.scene.preset);

@@ -118,7 +118,7 @@ CLI::Validator plane()
         ? std::string()
         : "'" + text + "' is not a normal that is not 0,0,0 and a distance: four numbers";
     },
-    "");
+    "", "numbers:4");
 }
 
 }

@@ -3,6 +3,8 @@
 #include "interruption.h"
 #include "machine.h"
 #include "mapper_names.h"
+#include "mesh_scene.h"
+#include "option_checks.h"
 #include "output_check.h"
 #include "presets.h"
 #include "private_display.h"
@@ -31,6 +33,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <memory>
 
@@ -46,31 +49,34 @@ struct Options
   std::string output;
   std::string mapper = "raymarch";
   std::string stats;
+  double exposure = 0.0; ///< stops
+  std::string display_curve = "none";
+
+  Display display() const
+  {
+    return { this->exposure,
+      this->display_curve == "srgb" ? Display::Curve::SRGB : Display::Curve::None };
+  }
 };
+
+bool ends_with_exr(const std::string& path)
+{
+  return path.size() > 4 && CLI::detail::to_lower(path.substr(path.size() - 4)) == ".exr";
+}
 
 struct Drawn
 {
   Film film;
+  std::vector<float> behind; ///< the surfaces behind the volume, R, G, B a pixel; empty without
   std::string statistics; ///< JSON
 };
 
 Drawn draw_ray_march(const VolumeScene& scene)
 {
   vtkNew<vtkBrumeRayMarchMapper> mapper;
-  mapper->SetInputDataObject(scene.input.data());
-  mapper->SetExtinction(scene.options.extinction);
-  mapper->SetTolerance(scene.options.tolerance);
-  mapper->SetNumberOfThreads(scene.options.threads);
-  apply(scene.options.modes, mapper, scene.volume->GetProperty());
-  mapper->SetMaskInput(scene.mask);
-  mapper->SetMaskTypeToBinary();
-  if (scene.options.sample_distance)
-  {
-    mapper->AutoAdjustSampleDistancesOff();
-    mapper->SetSampleDistance(*scene.options.sample_distance);
-  }
-  scene.volume->SetMapper(mapper);
-  vtkBrumeVolumeMapper::ResetClippingRange(scene.volume, scene.camera);
+  set_up(scene, mapper);
+  const SurfacePicture surfaces = draw_meshes(scene);
+  mapper->SetSurfaceDepth(surfaces.depth);
 
   struct Watch
   {
@@ -99,6 +105,7 @@ Drawn draw_ray_march(const VolumeScene& scene)
   mapper->AddObserver(vtkCommand::ErrorEvent, observer);
   Drawn drawn;
   drawn.film = Film(scene.width(), scene.height());
+  drawn.behind = surfaces.rgb;
   const bool completed =
     mapper->RenderFilm(scene.volume, scene.camera, scene.lights, drawn.film);
   watch.bar.clear();
@@ -109,6 +116,19 @@ Drawn draw_ray_march(const VolumeScene& scene)
   }
   drawn.statistics = mapper->GetStatistics();
   return drawn;
+}
+
+/// The film over what the surfaces sent, as over_background() of one colour.
+std::vector<float> over_picture(const Film& film, std::vector<float> rgb)
+{
+  for (std::size_t i = 0; i < film.size(); ++i)
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      rgb[3 * i + c] = film.radiance[c][i] + film.transmittance[c][i] * rgb[3 * i + c];
+    }
+  }
+  return rgb;
 }
 
 /// An effect as the statistics name it. How far VTK's mappers are off is not known beforehand.
@@ -179,17 +199,21 @@ void run(const Options& options)
   {
     throw Failure(error.what(), BadCall);
   }
+  if (ends_with_exr(options.output) && (options.exposure != 0.0 || options.display_curve != "none"))
+  {
+    throw Failure(options.exposure != 0.0 ? "--exposure" : "--display-curve",
+      "an EXR holds linear light as it is", "leave it out, or write a .png", BadCall);
+  }
   const MapperName& mapper = find_mapper(options.mapper, "--mapper");
-  check(options.scene.modes);
+  check(options.scene);
   const std::string cannot = not_drawn_by(options.scene.modes, mapper.kind);
   if (!cannot.empty())
   {
     throw Failure("--mapper " + options.mapper, cannot, "take --mapper raymarch", BadCall);
   }
-  if (options.scene.extinction > 0.0 && mapper.kind != MapperKind::RayMarch)
+  if (mapper.kind != MapperKind::RayMarch)
   {
-    throw Failure("--extinction", "VTK's own mappers do not draw densities",
-      "take --mapper raymarch, or a --preset", BadCall);
+    refuse_beyond_stock_mappers(options.scene, "take --mapper raymarch, or leave it out");
   }
   if (!options.scene.preset.empty())
   {
@@ -204,8 +228,9 @@ void run(const Options& options)
   InterruptionWatch::check(options.scene.input.c_str());
 
   nlohmann::json statistics = nlohmann::json::parse(drawn.statistics);
-  if (options.output.size() > 4 &&
-    CLI::detail::to_lower(options.output.substr(options.output.size() - 4)) == ".exr")
+  statistics["exposure"] = options.exposure;
+  statistics["display_curve"] = options.display_curve;
+  if (ends_with_exr(options.output))
   {
     write_exr(drawn.film, options.output,
       { { "brume:input", options.scene.input }, { "brume:mapper", options.mapper },
@@ -213,7 +238,10 @@ void run(const Options& options)
   }
   else
   {
-    write_png(drawn.film, scene.options.background.data(), options.output);
+    const std::vector<float> picture = drawn.behind.empty()
+      ? over_background(drawn.film, scene.options.background.data())
+      : over_picture(drawn.film, drawn.behind);
+    write_png(picture, drawn.film.width, drawn.film.height, options.output, options.display());
   }
   if (!options.stats.empty())
   {
@@ -260,6 +288,16 @@ void add_render(CLI::App& program)
     ->add_option("--mapper", options->mapper,
       "What draws it: " + list_mapper_names() + " [raymarch]")
     ->type_name("M");
+  command
+    ->add_option("--exposure", options->exposure,
+      "Brightens a .png: its values are multiplied by 2^STOPS, -64 to 64 [0]")
+    ->check(number("a number of stops from -64 to 64", [](double v) { return std::abs(v) <= 64.0; }))
+    ->type_name("STOPS");
+  command
+    ->add_option("--display-curve", options->display_curve,
+      "How a .png shows linear light: none (as VTK's frames do) or srgb (as eyes see it) [none]")
+    ->check(one_of({ "none", "srgb" }))
+    ->type_name("CURVE");
   command->add_option("--stats", options->stats, "Write what it took, as JSON, to FILE")
     ->type_name("FILE");
   command->get_option("--sample-distance")

@@ -5,6 +5,7 @@
 
 #include "vtkBrumeCloudSource.h"
 #include "vtkBrumePhantomSource.h"
+#include "vtkBrumeSmokeSource.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
@@ -63,6 +64,15 @@ Input cloud(const std::function<void(double)>& progress)
   return input;
 }
 
+Input smoke(const std::function<void(double)>& progress)
+{
+  vtkNew<vtkBrumeSmokeSource> source;
+  Input input;
+  input.image = run(source, progress);
+  input.length_unit = "m";
+  return input;
+}
+
 }
 
 const std::vector<Sample>& samples()
@@ -70,6 +80,7 @@ const std::vector<Sample>& samples()
   static const std::vector<Sample> table{
     { "head-ct", "a head as a CT scanner sees it, in Hounsfield units", head_ct },
     { "cloud", "a cumulus of 2 km, density from 0 to 1", cloud },
+    { "smoke", "a plume of hot smoke of 8 m, density from 0 to 1 and temperature", smoke },
   };
   return table;
 }

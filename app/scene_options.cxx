@@ -1,8 +1,10 @@
 #include "scene_options.h"
 
+#include "command.h"
 #include "input.h"
 #include "option_checks.h"
 #include "presets.h"
+#include "scene_file.h"
 
 #include <CLI/CLI.hpp>
 
@@ -107,7 +109,7 @@ void add_scene_options(CLI::App& command, SceneOptions& o, const std::string& sh
 
   command
     .add_option("--background", o.background_choice,
-      "Colour behind the volume, linear, 1 is white [0,0,0; with --extinction 1,1,1]")
+      "Colour behind the volume, linear, 1 is white [0,0,0; with --extinction and no light 1,1,1]")
     ->delimiter(',')
     ->type_name("R,G,B")
     ->check(number("a number of 0 or more", [](double v) { return v >= 0.0; }))
@@ -118,12 +120,20 @@ void add_scene_options(CLI::App& command, SceneOptions& o, const std::string& sh
     ->type_name("NAME")
     ->group(look);
   command
-    .add_option("--extinction", o.extinction,
-      "The values are a density that absorbs: extinction per world unit and unit of density [they "
-      "are classified by the preset]")
-    ->type_name("S")
-    ->check(positive())
+    .add_option_function<std::string>(
+      "--extinction", [&o](const std::string& t) { o.extinction = three_of(split_numbers(t)); },
+      "The values are a density: extinction per world unit and unit of density, greater than 0; one "
+      "number or R, G and B. By itself it absorbs; with options of light or matter it scatters [the "
+      "values are classified by the preset]")
+    ->type_name("S[,S,S]")
+    ->check(numbers("one or three numbers greater than 0", { 1, 3 },
+      [](double v) { return v > 0.0 && v <= 1e30; }))
     ->excludes(preset)
+    ->group(look);
+  command
+    .add_option("--density-array", o.density_array,
+      "The array of INPUT that holds the values, of a file of several [its scalars]")
+    ->type_name("NAME")
     ->group(look);
   command
     .add_option("--opacity-unit-distance", o.opacity_unit_distance,
@@ -144,7 +154,16 @@ void add_scene_options(CLI::App& command, SceneOptions& o, const std::string& sh
     ->check(one_of({ "linear", "nearest" }))
     ->group(look);
 
+  command
+    .add_option("--mesh", o.meshes,
+      "A surface that VTK draws where the volume is, and that hides what is behind it (.vtp, .ply, "
+      ".stl, .obj); may be given several times")
+    ->allow_extra_args(false)
+    ->type_name("FILE")
+    ->group(look);
+
   add_mode_options(command, o.modes);
+  add_medium_options(command, o.medium);
 
   command
     .add_option("--sample-distance", o.sample_distance,
@@ -167,6 +186,37 @@ void add_scene_options(CLI::App& command, SceneOptions& o, const std::string& sh
   command.add_flag("--quiet", o.quiet, "No progress bar and no remarks");
   command.add_flag("--verbose", o.verbose, "Say more of what is done, and why")
     ->excludes("--quiet");
+  add_scene_file(command, o.medium);
+}
+
+void check(const SceneOptions& options)
+{
+  check(options.modes);
+  check(options.medium);
+  const bool composite = options.modes.blend_mode == "composite";
+  if (!composite && (options.medium.has_medium() || options.medium.has_fog()))
+  {
+    throw Failure("--blend-mode " + options.modes.blend_mode, "light in media is composite mode's alone",
+      "leave it out, or the options of light, matter and fog", BadCall);
+  }
+}
+
+void refuse_beyond_stock_mappers(const SceneOptions& options, const std::string& remedy)
+{
+  if (options.density())
+  {
+    throw Failure("--extinction", "VTK's own mappers do not draw densities", remedy, BadCall);
+  }
+  const std::string name = options.medium.beyond_stock_mappers();
+  if (!name.empty())
+  {
+    throw Failure(
+      name, "VTK's own mappers know neither light in media nor fog nor effects", remedy, BadCall);
+  }
+  if (!options.meshes.empty())
+  {
+    throw Failure("--mesh", "surfaces are drawn with Brume's volumes alone", remedy, BadCall);
+  }
 }
 
 }

@@ -1,6 +1,7 @@
 // The scene options, which are the same for every subcommand that draws.
 #pragma once
 
+#include "medium_options.h"
 #include "mode_options.h"
 
 #include <array>
@@ -21,6 +22,8 @@ struct SceneOptions
 {
   std::string input;
   std::string grid; ///< of an OpenVDB file; empty: the first that can be read
+  std::string density_array; ///< of the point data; empty: its scalars
+  std::vector<std::string> meshes; ///< files
   std::array<int, 2> resolution{ 512, 512 }; ///< pixels
   std::optional<std::array<double, 3>> camera_position;    ///< world units
   std::optional<std::array<double, 3>> camera_focal_point; ///< world units
@@ -28,28 +31,41 @@ struct SceneOptions
   double camera_view_angle = 30.0;             ///< degrees
   std::optional<double> camera_parallel_scale; ///< world units; parallel projection when given
   std::optional<std::array<double, 3>> background_choice; ///< linear RGB
-  /// The choice; without one black, or white for a density, which darkens what is behind it. Settled
-  /// by make_volume_scene().
+  /// The choice; without one black, or white for a density that only absorbs, which darkens what is
+  /// behind it. Settled by make_volume_scene().
   std::array<double, 3> background{ 0.0, 0.0, 0.0 };
-  double extinction = 0.0; ///< per world unit and unit of density; 0: the values are classified
+  /// Per world unit and unit of density, R, G, B; 0, 0, 0: the values are classified.
+  Triple extinction{ 0.0, 0.0, 0.0 };
   std::string preset;                          ///< empty: picked from the data
   std::optional<double> opacity_unit_distance; ///< world units
   std::optional<double> sample_distance;       ///< world units
   std::string interpolation = "linear";
   std::string shade = "preset"; ///< on, off, or preset: as the preset has it
   ModeOptions modes;
+  MediumOptions medium;
   double tolerance = 0.004;
   int threads = 0;
   bool quiet = false;
   bool verbose = false;
+
+  /// Whether the values are a density.
+  bool density() const { return this->extinction != Triple{ 0.0, 0.0, 0.0 }; }
 };
 
 /// Declares INPUT and --grid on a subcommand; they are read into `input` and `grid`, which must
 /// outlive the parse.
 void add_input(CLI::App& command, std::string& input, std::string& grid);
 
-/// Declares INPUT and the scene options on a subcommand; they are read into `options`, which must
-/// outlive the parse. `shade` is the subcommand's default for --shade.
+/// Declares INPUT, the scene options and --scene, which reads them from a file, on a subcommand; they
+/// are read into `options`, which must outlive the parse. `shade` is the subcommand's default for
+/// --shade.
 void add_scene_options(CLI::App& command, SceneOptions& options, const std::string& shade);
+
+/// What single options cannot tell: throws Failure (BadCall) for those that do not fit together.
+void check(const SceneOptions& options);
+
+/// Throws Failure (BadCall) with this remedy where the scene has what VTK's own mappers do not draw:
+/// a density, light in a medium, fog, surfaces, forced effects.
+void refuse_beyond_stock_mappers(const SceneOptions& options, const std::string& remedy);
 
 }

@@ -2,23 +2,31 @@
 
 #include "command.h"
 #include "interruption.h"
+#include "mesh_scene.h"
+#include "option_checks.h"
 #include "presets.h"
 
 #include "Transport/bricks.h"
 #include "Transport/lookup_table.h"
 #include "Transport/scene.h"
 
+#include "vtkBrumeFog.h"
+#include "vtkBrumeMedium.h"
 #include "vtkBrumeRayMarchMapper.h"
+#include "vtkBrumeSky.h"
 #include "vtkBrumeSparseVolume.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
 #include "vtkCommand.h"
 #include "vtkImageData.h"
-#include "vtkLight.h"
 #include "vtkLightCollection.h"
 #include "vtkMath.h"
+#include "vtkBoundingBox.h"
 #include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkRenderer.h"
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
 
@@ -40,13 +48,18 @@ namespace
 /// How much of the picture the volume's box may fill when the camera is placed by itself.
 constexpr double fill = 0.96;
 
+double largest(const Triple& v)
+{
+  return std::max({ v[0], v[1], v[2] });
+}
+
 /// The corners, in the world, of each brick of the volume that can be seen with its transfer
 /// functions; of the whole volume where none can.
 std::vector<glm::dvec3> visible_corners(VolumeScene& scene)
 {
   vtkNew<vtkBrumeRayMarchMapper> mapper;
   mapper->SetInputDataObject(scene.input.data());
-  mapper->SetExtinction(scene.options.extinction);
+  mapper->SetExtinction(largest(scene.options.extinction));
   apply(scene.options.modes, mapper, scene.volume->GetProperty());
   scene.volume->SetMapper(mapper);
   std::string error;
@@ -61,11 +74,8 @@ std::vector<glm::dvec3> visible_corners(VolumeScene& scene)
   scene.volume->SetMapper(nullptr);
   if (!plain)
   {
-    // "…\nCLASS (ADDRESS): scalars of 3 components are not drawn: take one component …"
-    const std::size_t address = error.find("): ");
     throw Failure(scene.options.input + ": " +
-      (address == std::string::npos ? "it cannot be drawn: see brume info"
-                                    : error.substr(address + 3, error.find_last_not_of("\n ") - address - 2)));
+      (error.empty() ? "it cannot be drawn: see brume info" : words_of_vtk(error)));
   }
   scene.cropping = plain->volumes[0].cropping;
   const BrickRanges& ranges = *plain->volumes[0].ranges;
@@ -114,7 +124,42 @@ std::vector<glm::dvec3> visible_corners(VolumeScene& scene)
   {
     add_box(begin, last);
   }
+  for (vtkPolyData* mesh : scene.meshes)
+  {
+    vtkBoundingBox box(mesh->GetBounds());
+    for (int i = 0; i < 8; ++i)
+    {
+      glm::dvec3 corner;
+      box.GetCorner(i, &corner.x);
+      corners.push_back(corner);
+    }
+  }
   return corners;
+}
+
+/// Makes the named array the image's scalars.
+void choose_array(Input& input, const std::string& name, const std::string& input_name)
+{
+  if (name.empty())
+  {
+    return;
+  }
+  if (!input.image)
+  {
+    throw Failure("--density-array " + name, input_name + " is sparse, and has no arrays to choose from",
+      "leave it out, or choose a --grid", BadCall);
+  }
+  vtkPointData* data = input.image->GetPointData();
+  if (data->SetActiveScalars(name.c_str()) < 0)
+  {
+    std::vector<std::string> names;
+    for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+    {
+      names.emplace_back(data->GetArrayName(i) ? data->GetArrayName(i) : "(without a name)");
+    }
+    throw Failure("--density-array " + name, input_name + " has no such array of points",
+      "choose among " + listed(names), BadCall);
+  }
 }
 
 glm::dvec3 to_glm(const double v[3])
@@ -236,12 +281,19 @@ VolumeScene make_volume_scene(const SceneOptions& options)
   {
     scene.preset = &find_preset(options.preset); // before the work of reading
   }
-  check(options.modes);
-  const bool density = options.extinction > 0.0;
-  const double behind = density ? 1.0 : 0.0;
+  check(options);
+  const bool density = options.density();
+  const bool shines = options.medium.has_medium() || options.medium.has_fog();
+  const double behind = density && !shines ? 1.0 : 0.0;
   scene.options.background = options.background_choice.value_or(
     std::array<double, 3>{ behind, behind, behind });
+  for (const std::string& mesh : options.meshes)
+  {
+    scene.meshes.push_back(open_mesh(mesh));
+  }
+  scene.sky = make_sky(options.medium);
   scene.input = open_input_with_bar(options.input, options.grid, options.quiet);
+  choose_array(scene.input, options.density_array, options.input);
   if (!scene.preset && !density)
   {
     const PresetChoice choice = choose_preset(scene.input.data());
@@ -287,15 +339,60 @@ VolumeScene make_volume_scene(const SceneOptions& options)
   scene.volume = vtkSmartPointer<vtkVolume>::New();
   scene.volume->SetProperty(property);
 
-  vtkNew<vtkLight> light;
-  light->SetLightTypeToHeadlight();
-  // VTK's CPU mapper takes ambient light from the lights, its GPU mapper does not: white serves both.
-  light->SetAmbientColor(1.0, 1.0, 1.0);
-  scene.lights = vtkSmartPointer<vtkLightCollection>::New();
-  scene.lights->AddItem(light);
+  scene.lights = make_lights(options.medium);
+  scene.medium = make_medium(options.medium, options.extinction);
+  scene.fog = make_fog(options.medium, scene.sky);
   InterruptionWatch::check(options.input.c_str());
   scene.camera = make_camera(scene);
   return scene;
+}
+
+void set_up(const VolumeScene& scene, vtkBrumeRayMarchMapper* mapper)
+{
+  const SceneOptions& options = scene.options;
+  mapper->SetInputDataObject(scene.input.data());
+  mapper->SetExtinction(scene.medium ? 0.0 : largest(options.extinction));
+  mapper->SetMedium(scene.medium);
+  mapper->SetSky(scene.sky);
+  mapper->SetFog(scene.fog);
+  mapper->SetTolerance(options.tolerance);
+  mapper->SetNumberOfThreads(options.threads);
+  apply(options.modes, mapper, scene.volume->GetProperty());
+  apply(options.medium, mapper);
+  mapper->SetMaskInput(scene.mask);
+  mapper->SetMaskTypeToBinary();
+  if (options.sample_distance)
+  {
+    mapper->AutoAdjustSampleDistancesOff();
+    mapper->SetSampleDistance(*options.sample_distance);
+  }
+  scene.volume->SetMapper(mapper);
+  if (scene.meshes.empty())
+  {
+    vtkBrumeVolumeMapper::ResetClippingRange(scene.volume, scene.camera);
+    return;
+  }
+  vtkBoundingBox box(scene.volume->GetBounds());
+  for (vtkPolyData* mesh : scene.meshes)
+  {
+    box.AddBounds(mesh->GetBounds());
+  }
+  double bounds[6];
+  box.GetBounds(bounds);
+  vtkNew<vtkRenderer> renderer; // for its method alone; nothing is drawn
+  renderer->SetActiveCamera(scene.camera);
+  renderer->SetNearClippingPlaneTolerance(0.0005);
+  renderer->ResetCameraClippingRange(bounds);
+}
+
+std::string words_of_vtk(const std::string& error)
+{
+  // "ERROR: In FILE, line N\nCLASS (ADDRESS): scalars of 3 components are not drawn: take one …"
+  const std::size_t address = error.find("): ");
+  std::string words = address == std::string::npos ? error : error.substr(address + 3);
+  words.erase(words.find_last_not_of("\n ") + 1);
+  std::replace(words.begin(), words.end(), '\n', ' ');
+  return words.empty() ? "see brume info" : words;
 }
 
 }

@@ -7,10 +7,16 @@
 #include "vtkSmartPointer.h"
 
 #include <string>
+#include <vector>
 
+class vtkBrumeFog;
+class vtkBrumeMedium;
+class vtkBrumeRayMarchMapper;
+class vtkBrumeSky;
 class vtkCamera;
 class vtkImageData;
 class vtkLightCollection;
+class vtkPolyData;
 class vtkVolume;
 
 namespace brume::app
@@ -28,7 +34,11 @@ struct VolumeScene
   vtkSmartPointer<vtkImageData> mask; ///< 0 or 1 for each voxel; null for none
   Cropping cropping;                  ///< in voxels
   vtkSmartPointer<vtkCamera> camera; ///< clipping range fits the volume
-  vtkSmartPointer<vtkLightCollection> lights; ///< one headlight, white
+  vtkSmartPointer<vtkLightCollection> lights; ///< as make_lights() settles them
+  vtkSmartPointer<vtkBrumeMedium> medium;     ///< null for none
+  vtkSmartPointer<vtkBrumeSky> sky;
+  vtkSmartPointer<vtkBrumeFog> fog; ///< null for none
+  std::vector<vtkSmartPointer<vtkPolyData>> meshes;
   double voxel_edge = 1.0;            ///< the smallest edge of a voxel, world units
   double opacity_unit_distance = 1.0; ///< world units
 
@@ -39,9 +49,18 @@ struct VolumeScene
 /// Opens the input, with a progress bar, and settles all that the user left open:
 /// - the preset from the data (choose_preset);
 /// - the camera: all that the transfer functions let be seen, for patients from the front, a little from their left and above,
-///   with the head up; otherwise from the front (−y), a little from the right and above, with z up.
+///   with the head up; otherwise from the front (−y), a little from the right and above, with z up;
+/// - the background: black, or white behind a density that only absorbs.
 /// Remarks (what the reader settled, which preset and why) go to standard error unless --quiet.
 /// Throws Failure: BadCall for an unknown preset or sample, Failed for an input that cannot be read.
 VolumeScene make_volume_scene(const SceneOptions& options);
+
+/// Gives the mapper all of the scene, and the volume the mapper; the camera's clipping range is fitted
+/// to the volume and the meshes.
+void set_up(const VolumeScene& scene, vtkBrumeRayMarchMapper* mapper);
+
+/// What a VTK object complained of, without the place in its source, one line; "see brume info" for an
+/// empty text.
+std::string words_of_vtk(const std::string& error);
 
 }

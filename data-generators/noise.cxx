@@ -81,7 +81,7 @@ float billow(const glm::dvec3& place, std::uint32_t seed)
 }
 
 template <Noise noise>
-float sum_octaves(const glm::dvec3& place, std::uint32_t seed, const Octaves& octaves)
+float sum_octaves(const glm::dvec3& place, std::uint32_t seed, const NoiseOctaves& octaves)
 {
   double frequency = 1.0;
   double amplitude = 1.0;
@@ -175,12 +175,12 @@ float worley_noise(const glm::dvec3& place, std::uint32_t seed)
   return std::sqrt(nearest);
 }
 
-float fbm(const glm::dvec3& place, std::uint32_t seed, const Octaves& octaves)
+float fbm(const glm::dvec3& place, std::uint32_t seed, const NoiseOctaves& octaves)
 {
   return sum_octaves<perlin_noise>(place, seed, octaves);
 }
 
-float billow_fbm(const glm::dvec3& place, std::uint32_t seed, const Octaves& octaves)
+float billow_fbm(const glm::dvec3& place, std::uint32_t seed, const NoiseOctaves& octaves)
 {
   return sum_octaves<billow>(place, seed, octaves);
 }

@@ -26,7 +26,7 @@ float perlin_noise(const glm::dvec3& place, std::uint32_t seed);
 float worley_noise(const glm::dvec3& place, std::uint32_t seed);
 
 /// A sum of octaves, each finer and weaker than the one before.
-struct Octaves
+struct NoiseOctaves
 {
   /// How many octaves; 0 and less give 0, above 24 counts as 24.
   int count = 5;
@@ -39,11 +39,11 @@ struct Octaves
 /// Fractional Brownian motion over gradient noise: sum of gain^i perlin(lacunarity^i place) over
 /// the sum of gain^i. Range [-1, 1], mean 0. Each octave has a seed of its own. Its finest feature
 /// has the size lacunarity^-(count - 1).
-float fbm(const glm::dvec3& place, std::uint32_t seed, const Octaves& octaves = {});
+float fbm(const glm::dvec3& place, std::uint32_t seed, const NoiseOctaves& octaves = {});
 
 /// The same over 1 - worley: billows, round and bulging with creases between. Range [0, 1], mean
 /// about 0.48.
-float billow_fbm(const glm::dvec3& place, std::uint32_t seed, const Octaves& octaves = {});
+float billow_fbm(const glm::dvec3& place, std::uint32_t seed, const NoiseOctaves& octaves = {});
 
 /// Domain warp: the place moved by a vector of gradient noise, at most `amplitude` along each axis
 /// (in the unit of the place) and with features of the size `scale` (the same unit; not above 0

@@ -29,9 +29,10 @@ struct Candidate
 
 }
 
-std::vector<vtkVolume*> overlapping_volumes(vtkRenderer* renderer,
+std::vector<vtkVolume*> volumes_to_join(vtkRenderer* renderer,
   vtkVolume* first,
-  bool (*may_join)(vtkVolume*, vtkVolume*))
+  bool (*may_join)(vtkVolume*, vtkVolume*),
+  bool apart)
 {
   std::vector<vtkVolume*> others;
   std::vector<Candidate> candidates;
@@ -51,7 +52,7 @@ std::vector<vtkVolume*> overlapping_volumes(vtkRenderer* renderer,
       candidates.emplace_back();
       candidates.back().volume = volume;
       std::copy(bounds, bounds + 6, candidates.back().bounds);
-      candidates.back().joined = volume == first;
+      candidates.back().joined = apart || volume == first;
     }
   }
   for (bool more = true; more;)
@@ -91,7 +92,7 @@ DrawnWithOthers::~DrawnWithOthers()
   this->Forget();
 }
 
-void DrawnWithOthers::Remember(vtkRenderer* renderer, vtkVolume* volume)
+void DrawnWithOthers::Remember(vtkRenderer* renderer, vtkProp* prop)
 {
   if (this->Renderer != renderer)
   {
@@ -100,12 +101,12 @@ void DrawnWithOthers::Remember(vtkRenderer* renderer, vtkVolume* volume)
     renderer->AddObserver(vtkCommand::StartEvent, this->FrameOver);
     renderer->AddObserver(vtkCommand::EndEvent, this->FrameOver);
   }
-  this->Volumes.insert(volume);
+  this->Props.insert(prop);
 }
 
-bool DrawnWithOthers::Includes(vtkRenderer* renderer, vtkVolume* volume) const
+bool DrawnWithOthers::Includes(vtkRenderer* renderer, vtkProp* prop) const
 {
-  return this->Renderer == renderer && this->Volumes.count(volume) > 0;
+  return this->Renderer == renderer && this->Props.count(prop) > 0;
 }
 
 void DrawnWithOthers::Forget()
@@ -115,7 +116,7 @@ void DrawnWithOthers::Forget()
     this->Renderer->RemoveObserver(this->FrameOver);
   }
   this->Renderer = nullptr;
-  this->Volumes.clear();
+  this->Props.clear();
 }
 
 }

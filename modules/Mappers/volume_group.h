@@ -9,6 +9,7 @@
 #include <vector>
 
 class vtkCallbackCommand;
+class vtkProp;
 class vtkRenderer;
 class vtkVolume;
 
@@ -16,12 +17,14 @@ namespace brume
 {
 
 /// The visible volumes of the renderer that `may_join` and whose bounds meet those of `first`, or
-/// of one that does, and so on; without `first`, in the renderer's order.
-std::vector<vtkVolume*> overlapping_volumes(vtkRenderer* renderer,
+/// of one that does, and so on; `apart`: and those that do not. Without `first`, in the renderer's
+/// order.
+std::vector<vtkVolume*> volumes_to_join(vtkRenderer* renderer,
   vtkVolume* first,
-  bool (*may_join)(vtkVolume* first, vtkVolume* other));
+  bool (*may_join)(vtkVolume* first, vtkVolume* other),
+  bool apart);
 
-/// Remembers, for the rest of a renderer's frame, that a volume was drawn together with another.
+/// Remembers, for the rest of a renderer's frame, that a prop was drawn together with another.
 class DrawnWithOthers
 {
 public:
@@ -30,14 +33,14 @@ public:
   DrawnWithOthers(const DrawnWithOthers&) = delete;
   void operator=(const DrawnWithOthers&) = delete;
 
-  void Remember(vtkRenderer* renderer, vtkVolume* volume);
-  bool Includes(vtkRenderer* renderer, vtkVolume* volume) const;
+  void Remember(vtkRenderer* renderer, vtkProp* prop);
+  bool Includes(vtkRenderer* renderer, vtkProp* prop) const;
 
 private:
   void Forget();
 
   vtkWeakPointer<vtkRenderer> Renderer;
-  std::set<vtkVolume*> Volumes;
+  std::set<vtkProp*> Props;
   vtkNew<vtkCallbackCommand> FrameOver;
 };
 

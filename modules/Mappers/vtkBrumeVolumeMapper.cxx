@@ -1,8 +1,11 @@
 #include "vtkBrumeVolumeMapper.h"
 
+#include "fog_from_vtk.h"
+#include "fog_internals.h"
 #include "ignored_settings.h"
 #include "image_sampling.h"
 #include "scene_from_vtk.h"
+#include "surface_depth.h"
 #include "volume_group.h"
 #include "vtkBrumeFilmBlender.h"
 
@@ -46,8 +49,10 @@ struct vtkBrumeVolumeMapper::Internals
   vtkNew<vtkBrumeFilmBlender> Blender;
   brume::Film Film;
   vtkSmartPointer<vtkImageData> Mask;
+  std::vector<float> SurfaceDepth; ///< of renders without a window
   vtkSmartPointer<vtkBrumeMedium> Medium;
   vtkSmartPointer<vtkBrumeSky> Sky;
+  vtkSmartPointer<vtkBrumeFog> Fog;
   vtkNew<vtkBrumeEffectPlan> Plan;
   vtkRenderWindow* Window = nullptr; ///< the window being drawn into, for its abort check
   std::set<std::string> Warned;      ///< settings that were warned of
@@ -99,6 +104,20 @@ vtkBrumeSky* vtkBrumeVolumeMapper::GetSky()
   return this->Internal->Sky;
 }
 
+void vtkBrumeVolumeMapper::SetFog(vtkBrumeFog* fog)
+{
+  if (this->Internal->Fog != fog)
+  {
+    this->Internal->Fog = fog;
+    this->Modified();
+  }
+}
+
+vtkBrumeFog* vtkBrumeVolumeMapper::GetFog()
+{
+  return this->Internal->Fog;
+}
+
 vtkBrumeEffectPlan* vtkBrumeVolumeMapper::GetEffectPlan()
 {
   return this->Internal->Plan;
@@ -114,6 +133,10 @@ vtkMTimeType vtkBrumeVolumeMapper::GetMTime()
   if (this->Internal->Sky)
   {
     time = std::max(time, this->Internal->Sky->GetMTime());
+  }
+  if (this->Internal->Fog)
+  {
+    time = std::max(time, this->Internal->Fog->GetRedrawMTime());
   }
   return time;
 }
@@ -192,7 +215,33 @@ double vtkBrumeVolumeMapper::GetSecondsOfPicture(vtkRenderer* renderer, vtkVolum
 const brume::Scene* vtkBrumeVolumeMapper::UpdateScene(
   vtkVolume* volume, vtkCamera* camera, vtkLightCollection* lights, int width, int height)
 {
-  return this->UpdateScene(volume, { camera, lights, width, height, this->TwoSidedLighting != 0 });
+  return this->WithSurfaceDepth(
+    this->UpdateScene(
+      volume, {}, this->Internal->Fog, { camera, lights, width, height, this->TwoSidedLighting != 0 }), width,
+    height);
+}
+
+void vtkBrumeVolumeMapper::SetSurfaceDepth(std::vector<float> depth)
+{
+  this->Internal->SurfaceDepth = std::move(depth);
+  this->Modified();
+}
+
+brume::Scene* vtkBrumeVolumeMapper::WithSurfaceDepth(brume::Scene* scene, int width, int height)
+{
+  const std::vector<float>& depth = this->Internal->SurfaceDepth;
+  if (!scene || depth.empty())
+  {
+    return scene;
+  }
+  if (depth.size() != static_cast<std::size_t>(width) * height)
+  {
+    vtkErrorMacro("The surfaces' depth has " << depth.size() << " pixels, and the picture "
+                                             << static_cast<std::size_t>(width) * height << ".");
+    return nullptr;
+  }
+  scene->surface_depth = depth;
+  return scene;
 }
 
 brume::Scene* vtkBrumeVolumeMapper::UpdateScene(vtkVolume* volume, const brume::ViewFromVTK& view)
@@ -240,15 +289,34 @@ brume::Scene* vtkBrumeVolumeMapper::UpdateScene(vtkVolume* volume, const brume::
 
 brume::Scene* vtkBrumeVolumeMapper::UpdateScene(vtkVolume* first,
   const std::vector<vtkVolume*>& others,
+  vtkBrumeFog* fog,
   const brume::ViewFromVTK& view)
 {
   brume::Scene* scene = this->UpdateScene(first, view);
-  if (!scene || others.empty())
+  if (scene && !others.empty())
   {
-    return scene;
+    scene = this->JoinScenes(*scene, others, view);
   }
+  if (!scene)
+  {
+    return nullptr;
+  }
+  const std::string wrong = brume::add_fog(
+    scene->blend_mode == brume::BlendMode::Composite ? fog : nullptr, view, *scene);
+  if (!wrong.empty())
+  {
+    vtkErrorMacro(<< wrong);
+    return nullptr;
+  }
+  return scene;
+}
+
+brume::Scene* vtkBrumeVolumeMapper::JoinScenes(const brume::Scene& scene,
+  const std::vector<vtkVolume*>& others,
+  const brume::ViewFromVTK& view)
+{
   brume::Scene& together = this->Internal->Together;
-  together = *scene;
+  together = scene;
   together.mixture = brume::Mixture::Sum;
   bool sky = this->Internal->Medium && this->Internal->Sky;
   for (vtkVolume* volume : others)
@@ -298,8 +366,11 @@ bool vtkBrumeVolumeMapper::RenderUpdated(brume::Scene& scene, brume::Film& film)
 bool vtkBrumeVolumeMapper::RenderFilm(
   vtkVolume* volume, vtkCamera* camera, vtkLightCollection* lights, brume::Film& film)
 {
-  brume::Scene* scene = this->UpdateScene(
-    volume, { camera, lights, film.width, film.height, this->TwoSidedLighting != 0 });
+  brume::Scene* scene = this->WithSurfaceDepth(
+    this->UpdateScene(
+      volume, {}, this->Internal->Fog,
+      { camera, lights, film.width, film.height, this->TwoSidedLighting != 0 }),
+    film.width, film.height);
   if (!scene)
   {
     return false;
@@ -333,8 +404,11 @@ bool vtkBrumeVolumeMapper::RenderFilm(vtkVolumeCollection* volumes,
       first ? others.push_back(volume) : static_cast<void>(first = volume);
     }
   }
-  brume::Scene* scene = this->UpdateScene(
-    first, others, { camera, lights, film.width, film.height, this->TwoSidedLighting != 0 });
+  brume::Scene* scene = this->WithSurfaceDepth(
+    this->UpdateScene(
+      first, others, this->Internal->Fog,
+      { camera, lights, film.width, film.height, this->TwoSidedLighting != 0 }),
+    film.width, film.height);
   if (!scene)
   {
     return false;
@@ -430,48 +504,42 @@ void vtkBrumeVolumeMapper::WarnOfIgnoredSettings(vtkVolume* volume, int componen
   }
 }
 
-std::vector<float> vtkBrumeVolumeMapper::ReadSurfaceDepth(vtkRenderer* renderer,
-  int left,
-  int bottom,
-  int width,
-  int height) const
-{
-  std::vector<float> result;
-  if (!this->IntermixIntersectingGeometry)
-  {
-    return result;
-  }
-  // Only where something else is shown that may have written depth.
-  vtkPropCollection* props = renderer->GetViewProps();
-  vtkCollectionSimpleIterator it;
-  bool others = renderer->GetPreserveDepthBuffer() || renderer->GetLayer() > 0;
-  props->InitTraversal(it);
-  while (vtkProp* prop = props->GetNextProp(it))
-  {
-    others = others || (prop->GetVisibility() && !vtkVolume::SafeDownCast(prop));
-  }
-  if (!others)
-  {
-    return result;
-  }
-  result.resize(static_cast<std::size_t>(width) * height);
-  renderer->GetRenderWindow()->GetZbufferData(
-    left, bottom, left + width - 1, bottom + height - 1, result.data());
-  for (float& depth : result)
-  {
-    depth = 2.0f * depth - 1.0f; // the depth buffer's [0, 1] to the clip cube's [-1, 1]
-  }
-  return result;
-}
-
 bool vtkBrumeVolumeMapper::MayJoin(vtkVolume* first, vtkVolume* other)
 {
   auto* a = vtkBrumeVolumeMapper::SafeDownCast(first->GetMapper());
   auto* b = vtkBrumeVolumeMapper::SafeDownCast(other->GetMapper());
-  const auto joins = [](vtkBrumeVolumeMapper* mapper)
-  { return mapper && mapper->CombineVolumes && mapper->GetBlendMode() == COMPOSITE_BLEND; };
-  return joins(a) && joins(b) && a != b && std::string(a->GetClassName()) == b->GetClassName() &&
-         b->GetDataObjectInput();
+  return a && a->Combines() && b && b->Combines() && a != b &&
+         std::string(a->GetClassName()) == b->GetClassName() && b->GetDataObjectInput();
+}
+
+bool vtkBrumeVolumeMapper::Combines() const
+{
+  return this->CombineVolumes && this->BlendMode == COMPOSITE_BLEND;
+}
+
+bool vtkBrumeVolumeMapper::RenderWithFog(vtkRenderer* renderer, vtkBrumeFog* fog)
+{
+  vtkPropCollection* props = renderer->GetViewProps();
+  vtkCollectionSimpleIterator it;
+  props->InitTraversal(it);
+  while (vtkProp* prop = props->GetNextProp(it))
+  {
+    auto* volume = vtkVolume::SafeDownCast(prop);
+    auto* mapper =
+      volume ? vtkBrumeVolumeMapper::SafeDownCast(volume->GetMapper()) : nullptr;
+    if (!mapper || !volume->GetVisibility() || !mapper->Combines() ||
+      !mapper->GetDataObjectInput())
+    {
+      continue;
+    }
+    // Unless it had its turn before the fog, and could not be drawn.
+    if (!mapper->Internal->Drawn.Includes(renderer, volume))
+    {
+      mapper->Render(renderer, volume);
+    }
+    return fog->Internal->Drawn.Includes(renderer, fog);
+  }
+  return false;
 }
 
 void vtkBrumeVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
@@ -493,10 +561,17 @@ void vtkBrumeVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
   }
   std::vector<vtkVolume*> others;
   double allocated = volume->GetAllocatedRenderTime();
-  if (this->CombineVolumes && this->GetBlendMode() == COMPOSITE_BLEND)
+  vtkBrumeFog* fog = nullptr;
+  if (this->Combines())
   {
+    fog = brume::find_fog(renderer);
+    if (fog && fog->Internal->Drawn.Includes(renderer, fog))
+    {
+      fog = nullptr; // with other volumes
+    }
     std::set<vtkAbstractVolumeMapper*> mappers;
-    for (vtkVolume* other : brume::overlapping_volumes(renderer, volume, &MayJoin))
+    for (vtkVolume* other :
+      brume::volumes_to_join(renderer, volume, &MayJoin, fog != nullptr))
     {
       // A mapper that serves several volumes can hold the scene of one at a time.
       if (mappers.insert(other->GetMapper()).second)
@@ -508,6 +583,7 @@ void vtkBrumeVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
   }
   brume::Scene* scene = this->UpdateScene(volume,
     others,
+    fog,
     { renderer->GetActiveCamera(),
       renderer->GetLights(),
       width,
@@ -518,9 +594,17 @@ void vtkBrumeVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
     vtkBrumeVolumeMapper::SafeDownCast(other->GetMapper())
       ->Internal->Drawn.Remember(renderer, other);
   }
+  if (fog)
+  {
+    this->Internal->Drawn.Remember(renderer, volume); // the fog has its own turn, too
+  }
   if (!scene)
   {
     return;
+  }
+  if (fog)
+  {
+    fog->Internal->Drawn.Remember(renderer, fog);
   }
   const brume::ImageSampling rays(
     width, height, this->ChooseImageSampleDistance(renderer, volume, allocated));
@@ -529,7 +613,10 @@ void vtkBrumeVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
   {
     film = brume::Film(rays.width, rays.height);
   }
-  scene->surface_depth = this->ReadSurfaceDepth(renderer, left, bottom, width, height);
+  if (this->IntermixIntersectingGeometry)
+  {
+    scene->surface_depth = brume::read_surface_depth(renderer, left, bottom, width, height);
+  }
   if (!scene->surface_depth.empty() && (rays.width != width || rays.height != height))
   {
     scene->surface_depth = brume::at_rays(scene->surface_depth, width, height, rays);
@@ -579,6 +666,7 @@ void vtkBrumeVolumeMapper::PrintSelf(ostream& os, vtkIndent indent)
      << "\n";
   os << indent << "Medium: " << this->Internal->Medium << "\n";
   os << indent << "Sky: " << this->Internal->Sky << "\n";
+  os << indent << "Fog: " << this->Internal->Fog << "\n";
   os << indent << "EffectPlan:\n";
   this->Internal->Plan->PrintSelf(os, indent.GetNextIndent());
   os << indent << "MaskInput: " << this->Internal->Mask << "\n";

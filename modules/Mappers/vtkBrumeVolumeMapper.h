@@ -38,6 +38,7 @@
 #include <vector> // for std::vector
 
 class vtkBrumeEffectPlan;
+class vtkBrumeFog;
 class vtkBrumeMedium;
 class vtkBrumeSky;
 class vtkCamera;
@@ -201,6 +202,16 @@ public:
   vtkBrumeSky* GetSky();
   ///@}
 
+  ///@{
+  /**
+   * Fog for renders without a window: RenderFilm, RenderImage. In a window the vtkBrumeFog among the
+   * renderer's props counts instead. Composite mode alone; in others there is no fog. Default null:
+   * none.
+   */
+  virtual void SetFog(vtkBrumeFog* fog);
+  vtkBrumeFog* GetFog();
+  ///@}
+
   /**
    * Which effects the last picture simulated, and why, and what is forced for the next ones. Never
    * null.
@@ -208,7 +219,7 @@ public:
   vtkBrumeEffectPlan* GetEffectPlan();
 
   /**
-   * The latest change of the mapper, its medium, its sky and what its plan is forced to.
+   * The latest change of the mapper, its medium, its sky, its fog and what its plan is forced to.
    */
   vtkMTimeType GetMTime() override;
 
@@ -281,6 +292,14 @@ public:
     brume::Film& film);
 
   /**
+   * Opaque geometry for renders without a window: for each pixel the normalised device depth of the
+   * nearest surface, in [-1, 1] (1: none), rows from the bottom up, as many as the film has. Rays end
+   * there. Default empty: none. A render of another size fails with a vtkErrorMacro. In a window the
+   * renderer's own depth counts.
+   */
+  void SetSurfaceDepth(std::vector<float> depth);
+
+  /**
    * The scene as Transport sees it, brought up to date for a picture of this size; for measuring
    * pictures against brume::render_reference. Null, after a vtkErrorMacro, where there is nothing to
    * draw. Valid until the next call of any method of the mapper or change of its input.
@@ -351,15 +370,22 @@ private:
   brume::Scene* UpdateScene(vtkVolume* volume, const brume::ViewFromVTK& view);
   brume::Scene* UpdateScene(vtkVolume* first,
     const std::vector<vtkVolume*>& others,
+    vtkBrumeFog* fog,
+    const brume::ViewFromVTK& view);
+  brume::Scene* JoinScenes(const brume::Scene& scene,
+    const std::vector<vtkVolume*>& others,
     const brume::ViewFromVTK& view);
   bool RenderUpdated(brume::Scene& scene, brume::Film& film);
+  /// The scene with the surfaces of SetSurfaceDepth; null where they are of another size.
+  brume::Scene* WithSurfaceDepth(brume::Scene* scene, int width, int height);
   void WarnOfIgnoredSettings(vtkVolume* volume, int components);
-  std::vector<float> ReadSurfaceDepth(vtkRenderer* renderer,
-    int left,
-    int bottom,
-    int width,
-    int height) const;
   static bool MayJoin(vtkVolume* first, vtkVolume* other);
+  /// Whether it is drawn as one with other volumes and fog.
+  bool Combines() const;
+  /// Draws the first volume that may be, with all that join, and the fog. Returns whether the fog was
+  /// drawn.
+  static bool RenderWithFog(vtkRenderer* renderer, vtkBrumeFog* fog);
+  friend class vtkBrumeFog;
 
   struct Internals;
   std::unique_ptr<Internals> Internal;

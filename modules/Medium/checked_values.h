@@ -1,4 +1,4 @@
-// Values from users on their way into a setting. Internal to Medium.
+// Values from users on their way into a setting; for vtkBrumeMedium, vtkBrumeFog and their like.
 #ifndef checked_values_h
 #define checked_values_h
 

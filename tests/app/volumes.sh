@@ -20,6 +20,30 @@ filled() {
   } > "$1"
 }
 
+# arrays FILE.vti: 16³ points with two arrays, "amount" (the scalars) a ball, "heat" higher to one side.
+arrays() {
+  {
+    echo '<?xml version="1.0"?>'
+    echo '<VTKFile type="ImageData" version="0.1" byte_order="LittleEndian">'
+    echo '<ImageData WholeExtent="0 15 0 15 0 15" Origin="0 0 0" Spacing="1 1 1">'
+    echo '<Piece Extent="0 15 0 15 0 15"><PointData Scalars="amount">'
+    echo '<DataArray type="Float32" Name="amount" format="ascii">'
+    awk 'BEGIN { for (z = 0; z < 16; ++z) for (y = 0; y < 16; ++y) for (x = 0; x < 16; ++x) {
+      r = sqrt((x - 7.5) ^ 2 + (y - 7.5) ^ 2 + (z - 7.5) ^ 2) / 7.5; print r < 1 ? 1 - r : 0 } }'
+    echo '</DataArray><DataArray type="Float32" Name="heat" format="ascii">'
+    awk 'BEGIN { for (z = 0; z < 16; ++z) for (y = 0; y < 16; ++y) for (x = 0; x < 16; ++x) {
+      print 0.3 + 0.08 * x } }'
+    echo '</DataArray></PointData></Piece></ImageData></VTKFile>'
+  } > "$1"
+}
+
+# corner FILE.ply: a triangle that hides part of a blob from the front.
+corner() {
+  printf '%s\n' ply 'format ascii 1.0' 'element vertex 3' 'property float x' 'property float y' \
+    'property float z' 'element face 1' 'property list uchar int vertex_indices' end_header \
+    '0 -4 0' '16 -4 0' '8 7 16' '3 0 1 2' > "$1"
+}
+
 # series FILE.nii: a 4D NIfTI of 4³ voxels at two times.
 series() {
   {

@@ -4,6 +4,7 @@
 #include "data-generators/head_ct.h"
 #include "data-generators/hounsfield.h"
 #include "data-generators/painted_volume.h"
+#include "data-generators/plume.h"
 #include "data-generators/random.h"
 #include "data-generators/sampling.h"
 #include "data-generators/signed_distance.h"
@@ -304,6 +305,100 @@ TEST(Cumulus, RefusesOptionsThatMakeNoCloud)
   options = {};
   options.wind.y = nan;
   EXPECT_THROW(brume::Cumulus{ options }, std::invalid_argument);
+}
+
+TEST(Plume, RisesFromItsSourceAndThins)
+{
+  for (std::uint32_t seed : { 1u, 2u, 77u })
+  {
+    brume::PlumeOptions options;
+    options.seed = seed;
+    const brume::Plume plume(options);
+    const brume::Lattice grid = brume::grid_over(plume.bounds(), 96);
+    ASSERT_EQ(grid.dimensions, glm::ivec3(48, 48, 96));
+    // By layers: how wide it is (voxels with smoke), and its highest temperature.
+    const auto layer = [&](double height)
+    {
+      struct
+      {
+        int wide = 0;
+        float hottest = 0.0f;
+      } found;
+      for (int j = 0; j < 48; ++j)
+        for (int i = 0; i < 48; ++i)
+        {
+          const brume::Plume::State s =
+            plume.at(grid.place(i, j, static_cast<int>(height * 95)), 0.0);
+          EXPECT_GE(s.density, 0.0f);
+          EXPECT_LE(s.density, 1.0f);
+          EXPECT_GE(s.temperature, 300.0f);
+          EXPECT_LE(s.temperature, 1900.0f);
+          found.wide += s.density > 0.0f;
+          found.hottest = std::max(found.hottest, s.temperature);
+        }
+      return found;
+    };
+    const auto low = layer(0.1), middle = layer(0.4), high = layer(0.7);
+    EXPECT_GT(low.wide, 10) << "seed " << seed;
+    EXPECT_GT(middle.wide, 2 * low.wide) << "seed " << seed;
+    EXPECT_GT(high.wide, middle.wide) << "seed " << seed;
+    EXPECT_GT(low.hottest, 900.0f) << "seed " << seed;
+    EXPECT_GT(low.hottest, middle.hottest + 300.0f) << "seed " << seed;
+    EXPECT_GT(middle.hottest, high.hottest) << "seed " << seed;
+  }
+}
+
+TEST(Plume, NeverTouchesItsBox)
+{
+  const brume::Plume plume;
+  const brume::Lattice grid = brume::grid_over(plume.bounds(), 64);
+  for (double time : { 0.0, 1000.0 })
+  {
+    const std::vector<float> density = sampled(plume, 64, time);
+    std::size_t n = 0;
+    for (int k = 0; k < grid.dimensions.z; ++k)
+      for (int j = 0; j < grid.dimensions.y; ++j)
+        for (int i = 0; i < grid.dimensions.x; ++i, ++n)
+        {
+          if (i == 0 || j == 0 || k == 0 || i == grid.dimensions.x - 1 ||
+              j == grid.dimensions.y - 1 || k == grid.dimensions.z - 1)
+          {
+            ASSERT_EQ(density[n], 0.0f) << i << ' ' << j << ' ' << k;
+          }
+        }
+  }
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const dvec3& outside : { dvec3(0, 0, 9), dvec3(nan, 0, 1), dvec3(0, 0, nan) })
+  {
+    EXPECT_EQ(plume.at(outside, 0.0).density, 0.0f);
+    EXPECT_EQ(plume.at(outside, 0.0).temperature, 300.0f);
+  }
+}
+
+TEST(Plume, ItsTurbulenceRises)
+{
+  EXPECT_NE(sampled(brume::Plume(), 32, 0.0), sampled(brume::Plume(), 32, 3.0));
+  brume::PlumeOptions still;
+  still.rise = 0.0;
+  EXPECT_EQ(sampled(brume::Plume(still), 32, 0.0), sampled(brume::Plume(still), 32, 3.0));
+}
+
+TEST(Plume, HasTheSameBytesEverywhere)
+{
+  EXPECT_EQ(fingerprint(sampled(brume::Plume(), 48, 3.5)), 17583272377612584305ull);
+}
+
+TEST(Plume, RefusesOptionsThatMakeNone)
+{
+  brume::PlumeOptions options;
+  options.width = -1.0;
+  EXPECT_THROW(brume::Plume{ options }, std::invalid_argument);
+  options = {};
+  options.source_temperature = 200.0;
+  EXPECT_THROW(brume::Plume{ options }, std::invalid_argument);
+  options = {};
+  options.rise = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(brume::Plume{ options }, std::invalid_argument);
 }
 
 TEST(Sampling, GridsFillTheirBoxAndShareItsCentre)

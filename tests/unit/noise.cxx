@@ -13,7 +13,7 @@
 namespace
 {
 
-using brume::Octaves;
+using Octaves = brume::NoiseOctaves;
 using glm::dvec3;
 
 /// Places at random in a cube of 2000 features, both signs.

@@ -1,0 +1,151 @@
+// brume plan: which effects a picture would simulate, why, and how wrong it is without the others.
+#include "command.h"
+#include "interruption.h"
+#include "mesh_scene.h"
+#include "output_check.h"
+#include "presets.h"
+#include "scene_options.h"
+#include "volume_scene.h"
+
+#include "atomic_file.h"
+
+#include "Transport/effect_plan.h"
+#include "Transport/marcher.h"
+
+#include "vtkBrumeEffectPlan.h"
+#include "vtkBrumeRayMarchMapper.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCamera.h"
+#include "vtkCommand.h"
+#include "vtkLightCollection.h"
+#include "vtkNew.h"
+#include "vtkVolume.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+namespace brume::app
+{
+
+namespace
+{
+
+struct Options
+{
+  SceneOptions scene;
+  std::string json;
+};
+
+EffectPlan make_plan(const VolumeScene& scene)
+{
+  vtkNew<vtkBrumeRayMarchMapper> mapper;
+  std::string error;
+  vtkNew<vtkCallbackCommand> ear; // in place of the standard error stream
+  ear->SetClientData(&error);
+  ear->SetCallback([](vtkObject*, unsigned long, void* data, void* text)
+    { *static_cast<std::string*>(data) = static_cast<const char*>(text); });
+  mapper->AddObserver(vtkCommand::ErrorEvent, ear);
+  set_up(scene, mapper);
+  mapper->SetSurfaceDepth(draw_meshes(scene).depth);
+  const Scene* plain = mapper->UpdateScene(
+    scene.volume, scene.camera, scene.lights, scene.width(), scene.height());
+  if (!plain)
+  {
+    throw Failure(scene.options.input, "it cannot be drawn", words_of_vtk(error));
+  }
+  Marcher marcher;
+  const EffectPlan plan = plan_effects(marcher, *plain, scene.options.tolerance,
+    mapper->GetEffectPlan()->GetForces(), scene.options.threads);
+  InterruptionWatch::check(scene.options.input.c_str());
+  return plan;
+}
+
+std::string bound_text(const PlannedEffect& effect)
+{
+  if (effect.error_bound == 0.0)
+  {
+    return "0";
+  }
+  std::ostringstream out;
+  out << std::setprecision(2) << effect.error_bound;
+  return out.str();
+}
+
+/// A table for people: an effect a line, the reason last.
+std::string table(const EffectPlan& plan, double tolerance)
+{
+  std::ostringstream out;
+  const auto line = [&](const std::string& name, const std::string& state, const std::string& bound,
+                      const std::string& reason)
+  {
+    out << std::left << std::setw(21) << name << std::setw(13) << state << std::setw(10) << bound
+        << reason << '\n';
+  };
+  line("effect", "simulated", "error", "reason");
+  for (const PlannedEffect& effect : plan.effects)
+  {
+    line(effect_name(effect.effect),
+      std::string(effect.on ? "yes" : "no") + (effect.forced ? ", forced" : ""), bound_text(effect),
+      effect.reason);
+  }
+  out << "What is left out changes a pixel by " << std::setprecision(2) << plan.error_bound()
+      << " of white at the most; tolerance " << tolerance << ".\n";
+  return out.str();
+}
+
+nlohmann::ordered_json to_json(const EffectPlan& plan, const VolumeScene& scene)
+{
+  nlohmann::ordered_json effects = nlohmann::ordered_json::array();
+  for (const PlannedEffect& effect : plan.effects)
+  {
+    effects.push_back({ { "name", effect_name(effect.effect) }, { "on", effect.on },
+      { "forced", effect.forced }, { "reason", effect.reason },
+      { "error_bound", effect.error_bound } });
+  }
+  return { { "format", "brume-plan" }, { "version", 1 }, { "input", scene.options.input },
+    { "tolerance", scene.options.tolerance }, { "error_bound", plan.error_bound() },
+    { "effects", effects } };
+}
+
+void run(const Options& options)
+{
+  check(options.scene);
+  if (!options.scene.preset.empty())
+  {
+    find_preset(options.scene.preset);
+  }
+  check_output(options.json, options.scene.input);
+  const InterruptionWatch watch;
+  const VolumeScene scene = make_volume_scene(options.scene);
+  const EffectPlan plan = make_plan(scene);
+  if (!options.json.empty())
+  {
+    write_atomically(options.json, to_json(plan, scene).dump(2) + "\n");
+  }
+  std::cout << table(plan, scene.options.tolerance);
+}
+
+}
+
+void add_plan(CLI::App& program)
+{
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand("plan",
+    "Tell which effects a picture would simulate, why, and how wrong it is without the others");
+  add_scene_options(*command, options->scene, "preset");
+  command->add_option("--json", options->json, "Write the plan as JSON to FILE, too")
+    ->type_name("FILE");
+  command->get_option("--sample-distance")
+    ->description("Fixed distance between samples, in world units; the plan does not depend on it");
+  command->footer("Example: brume plan sample:cloud --extinction 0.05 --sun-direction 1,0,1");
+  command->callback([options] { run(*options); });
+}
+
+}
