@@ -111,6 +111,7 @@ std::vector<double> SceneKey::NumbersOf(const Scene& scene, const std::vector<do
   for (const Light& light : scene.lights)
   {
     add(key, light.diffuse);
+    add(key, light.specular);
     add(key, light.attenuation);
     key.insert(
       key.end(), { static_cast<double>(light.positional), light.cone_angle, light.exponent });

@@ -1,6 +1,7 @@
 #include "vtkBrumeFog.h"
 
 #include "fog_from_vtk.h"
+#include "fog_internals.h"
 #include "surface_depth.h"
 #include "volume_group.h"
 #include "vtkBrumeFilmBlender.h"
@@ -27,15 +28,6 @@
 #include <stdexcept>
 
 vtkStandardNewMacro(vtkBrumeFog);
-
-struct vtkBrumeFog::Internals
-{
-  std::vector<brume::PhaseLobe> Lobes;
-  vtkSmartPointer<vtkBrumeSky> Sky;
-  brume::DrawnWithOthers Drawn; ///< with volumes
-  vtkNew<vtkBrumeFilmBlender> Blender;
-  brume::Film Film;
-};
 
 vtkBrumeFog::vtkBrumeFog()
   : Internal(std::make_unique<Internals>())

@@ -1,9 +1,8 @@
 #include "vtkBrumeRayMarchMapper.h"
 
+#include "march_choices.h"
 #include "march_report.h"
-#include "step_key.h"
 
-#include "Transport/effect_plan.h"
 #include "Transport/film.h"
 #include "Transport/marcher.h"
 #include "Transport/step_control.h"
@@ -24,38 +23,10 @@
 #include <chrono>
 #include <cmath>
 
-namespace
-{
-
-/// What the tolerance is spent on: leaving rays early, and steps; of lit scenes also effects that are
-/// left out (plan_effects takes a quarter of what it is given) and shadows.
-constexpr double LeaveShare = 0.25;
-constexpr double ShadowShare = 0.25;
-constexpr double StepShare = 0.75;
-constexpr double LitStepShare = 0.25;
-
-std::vector<double> NumbersOf(const brume::EffectSet& effects)
-{
-  std::vector<double> numbers;
-  for (int i = 0; i < brume::effect_count; ++i)
-  {
-    numbers.push_back(effects.has(static_cast<brume::Effect>(i)));
-  }
-  return numbers;
-}
-
-}
-
 struct vtkBrumeRayMarchMapper::Internals
 {
   brume::Marcher Marcher;
-  // Steps and shadows hold for all directions of light, nearly; plans do not.
-  brume::SceneKey StepKey;
-  brume::StepChoice Choice;
-  brume::SceneKey ShadowKey;
-  brume::ShadowChoice Shadows;
-  brume::SceneKey PlanKey;
-  brume::EffectPlan Plan;
+  brume::MarchChoices Choices;
   vtkNew<vtkContourValues> DepthPassContourValues; ///< kept for callers; nothing reads it
 };
 
@@ -186,110 +157,30 @@ double vtkBrumeRayMarchMapper::FixedStep()
   return this->SpacingAdjustedSampleDistance(spacing, image->GetExtent());
 }
 
-brume::EffectSet vtkBrumeRayMarchMapper::PlanEffects(const brume::Scene& scene)
-{
-  // Without a medium pictures are VTK's: nothing that changes one is left out unless it is forced.
-  const double tolerance = brume::is_lit(scene) ? this->Tolerance : 0.0;
-  const std::map<brume::Effect, bool>& forces = this->GetEffectPlan()->GetForces();
-  std::vector<double> key{ tolerance, static_cast<double>(scene.surface_depth.empty()) };
-  for (const auto& force : forces)
-  {
-    key.push_back(static_cast<double>(force.first));
-    key.push_back(force.second);
-  }
-  if (!this->Internal->PlanKey.Holds(scene, key))
-  {
-    this->Internal->Plan = brume::plan_effects(
-      this->Internal->Marcher, scene, tolerance, forces, this->NumberOfThreads);
-    this->Internal->PlanKey.Take(scene, key);
-  }
-  this->GetEffectPlan()->SetPlan(this->Internal->Plan);
-  return this->Internal->Plan.on();
-}
-
-brume::ShadowChoice vtkBrumeRayMarchMapper::ChooseShadows(const brume::Scene& scene,
-  const brume::EffectSet& effects)
-{
-  brume::ShadowChoice shadows;
-  const bool cast = brume::is_lit(scene) && effects.has(brume::Effect::Shadows);
-  if (cast && this->ShadowMethod == AutomaticShadows)
-  {
-    const double tolerance = std::max(ShadowShare * this->Tolerance, 1e-9);
-    std::vector<double> key = NumbersOf(effects);
-    key.push_back(tolerance);
-    if (!this->Internal->ShadowKey.Holds(scene, key))
-    {
-      this->Internal->Shadows = brume::choose_shadows(
-        this->Internal->Marcher, scene, tolerance, this->NumberOfThreads);
-      this->Internal->ShadowKey.Take(scene, key, false);
-    }
-    shadows = this->Internal->Shadows;
-  }
-  else if (cast)
-  {
-    const brume::ShadowMethod methods[] = { brume::ShadowMethod::None,
-      brume::ShadowMethod::None,
-      brume::ShadowMethod::Rays,
-      brume::ShadowMethod::Volume,
-      brume::ShadowMethod::Functions };
-    shadows.method = methods[this->ShadowMethod];
-    shadows.precise = this->Tolerance < 1e-3;
-  }
-  if (this->ShadowSampleDistance > 0.0)
-  {
-    shadows.step = this->ShadowSampleDistance;
-  }
-  return shadows;
-}
-
-void vtkBrumeRayMarchMapper::ChooseStep(const brume::Scene& scene,
-  const brume::EffectSet& effects,
-  double tolerance,
-  brume::MarchSettings& settings)
-{
-  if (!this->AutoAdjustSampleDistances)
-  {
-    settings.step = this->FixedStep();
-    return;
-  }
-  brume::StepChoice& choice = this->Internal->Choice;
-  std::vector<double> key = NumbersOf(effects);
-  key.insert(key.end(),
-    { tolerance, static_cast<double>(settings.shadows), settings.shadow_step });
-  if (!this->Internal->StepKey.Holds(scene, key))
-  {
-    choice = brume::choose_step(this->Internal->Marcher, scene, tolerance, this->NumberOfThreads,
-      brume::is_lit(scene) ? settings : brume::MarchSettings());
-    this->Internal->StepKey.Take(scene, key, false);
-  }
-  settings.rule = choice.rule;
-  settings.step = choice.step;
-  settings.refinements = choice.refinements;
-  settings.refine_error = choice.refine_error;
-}
-
 bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& whole, brume::Film& film)
 {
   const auto start = std::chrono::steady_clock::now();
-  const brume::EffectSet effects = this->PlanEffects(whole);
-  // What VTK draws too stays as it is, unless an effect was forced.
-  const bool plain = !brume::is_lit(whole) && this->GetEffectPlan()->GetForces().empty();
-  const brume::Scene simple = plain ? brume::Scene() : brume::simplified(whole, effects);
-  const brume::Scene& scene = plain ? whole : simple;
-  brume::MarchSettings settings;
-  settings.threads = this->NumberOfThreads;
-  settings.leave_error = LeaveShare * this->Tolerance;
-  settings.jitter = this->UseJittering != 0;
-  const brume::ShadowChoice shadows = this->ChooseShadows(scene, effects);
-  settings.shadows = shadows.method;
-  settings.shadow_step = shadows.step;
-  settings.precise_shadows = shadows.precise;
-  if (!plain)
-  {
-    brume::apply_effects(effects, settings);
-  }
-  const double share = brume::is_lit(scene) ? LitStepShare : StepShare;
-  this->ChooseStep(scene, effects, std::max(share * this->Tolerance, 1e-9), settings);
+  const brume::ShadowMethod methods[] = { brume::ShadowMethod::Volume, // in place of a choice
+    brume::ShadowMethod::None,
+    brume::ShadowMethod::Rays,
+    brume::ShadowMethod::Volume,
+    brume::ShadowMethod::Functions };
+  brume::ChoiceSettings wanted;
+  wanted.tolerance = this->Tolerance;
+  wanted.forces = this->GetEffectPlan()->GetForces();
+  wanted.choose_shadows = this->ShadowMethod == AutomaticShadows;
+  wanted.shadows = methods[this->ShadowMethod];
+  wanted.shadow_step = this->ShadowSampleDistance;
+  wanted.choose_step = this->AutoAdjustSampleDistances != 0;
+  wanted.step = this->FixedStep();
+  wanted.jitter = this->UseJittering != 0;
+  wanted.coarse = this->ImageSampleDistanceInUse > 1.0;
+  wanted.threads = this->NumberOfThreads;
+  brume::MarchChoices& choices = this->Internal->Choices;
+  choices.Update(this->Internal->Marcher, whole, wanted);
+  this->GetEffectPlan()->SetPlan(choices.GetPlan());
+  const brume::Scene& scene = choices.GetScene();
+  const brume::MarchSettings& settings = choices.GetSettings();
   const double secondsChoices =
     std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
@@ -299,10 +190,7 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& whole, brume::Film& film)
 
   if (march.rays == 0)
   {
-    // Nothing was measured.
-    this->Internal->StepKey.Clear();
-    this->Internal->ShadowKey.Clear();
-    this->Internal->PlanKey.Clear();
+    choices.Forget(); // nothing was measured
   }
 
   const bool window = this->FinalColorWindow != 1.0f || this->FinalColorLevel != 0.5f;
@@ -326,9 +214,8 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& whole, brume::Film& film)
   if (this->AutoAdjustSampleDistances)
   {
     statistics["step_chosen_by"] = "tolerance";
-    statistics["estimated_error"] = this->Internal->Choice.estimated_error +
-      settings.leave_error + shadows.estimated_error + this->Internal->Plan.error_bound();
-    statistics["tolerance_met"] = this->Internal->Choice.met && shadows.met;
+    statistics["estimated_error"] = choices.GetEstimatedError();
+    statistics["tolerance_met"] = choices.IsToleranceMet();
   }
   else
   {
@@ -337,17 +224,15 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& whole, brume::Film& film)
   }
   if (brume::is_lit(scene))
   {
-    const bool chosen =
-      this->ShadowMethod == AutomaticShadows && !(this->ShadowSampleDistance > 0.0);
-    statistics["shadows_chosen_by"] = chosen ? "tolerance" : "caller";
+    statistics["shadows_chosen_by"] = choices.HasChosenShadows() ? "tolerance" : "caller";
   }
   statistics["shadow_method"] = brume::shadow_method_name(march.shadows);
   statistics["shadow_step"] = march.shadow_step;
   statistics["light_bytes"] = march.light_bytes;
   statistics["seconds_light"] = march.seconds_light;
   statistics["effects"] =
-    brume::effects_of(scene, settings, march, this->Internal->Plan, window);
-  statistics["effects_error_bound"] = this->Internal->Plan.error_bound();
+    brume::effects_of(scene, settings, march, choices.GetPlan(), window);
+  statistics["effects_error_bound"] = choices.GetPlan().error_bound();
   statistics["ignored_settings"] = this->IgnoredSettings;
   statistics["non_finite_voxels"] = march.non_finite_voxels;
   statistics["bricks"] = march.bricks;

@@ -29,13 +29,6 @@ class vtkContourValues;
 class vtkRenderWindow;
 class vtkVolumeProperty;
 
-namespace brume
-{
-class EffectSet;
-struct MarchSettings;
-struct ShadowChoice;
-}
-
 class VTKBRUMEMAPPERS_EXPORT vtkBrumeRayMarchMapper : public vtkBrumeVolumeMapper
 {
 public:
@@ -237,12 +230,6 @@ private:
   void operator=(const vtkBrumeRayMarchMapper&) = delete;
 
   double FixedStep();
-  brume::EffectSet PlanEffects(const brume::Scene& scene);
-  brume::ShadowChoice ChooseShadows(const brume::Scene& scene, const brume::EffectSet& effects);
-  void ChooseStep(const brume::Scene& scene,
-    const brume::EffectSet& effects,
-    double tolerance,
-    brume::MarchSettings& settings);
 
   vtkTypeBool AutoAdjustSampleDistances = 1;
   double SampleDistance = 1.0;

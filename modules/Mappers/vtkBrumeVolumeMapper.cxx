@@ -1,13 +1,13 @@
 #include "vtkBrumeVolumeMapper.h"
 
 #include "fog_from_vtk.h"
+#include "fog_internals.h"
 #include "ignored_settings.h"
 #include "image_sampling.h"
 #include "scene_from_vtk.h"
 #include "surface_depth.h"
 #include "volume_group.h"
 #include "vtkBrumeFilmBlender.h"
-#include "vtkBrumeFog.h"
 
 #include "Transport/film.h"
 

@@ -170,7 +170,7 @@ struct Ball
 
 constexpr int edge = 12;
 
-double worst_against_field(const Draw& draw, const Ball& ball)
+double worst_against_field(const Draw& draw, const Ball& ball, double least_white = 1e-30)
 {
   return worst_error(draw(ball.scene, edge, edge),
     [&](int x, int y)
@@ -180,7 +180,8 @@ double worst_against_field(const Draw& draw, const Ball& ball)
       const double passes =
         std::exp(-ball.depth(ray.begin, ray.direction, middle - ball.n, middle + ball.n));
       return Truth{ glm::dvec3(ball.radiance(ray)), glm::dvec3(passes) };
-    });
+    },
+    least_white);
 }
 
 }
@@ -189,6 +190,26 @@ TEST(LitBall, ReferenceIsTheIntegralOfTheVoxels)
 {
   const Ball ball(14, 5.2, 0.5);
   EXPECT_LE(worst_against_field(by_reference(1e-7), ball), 2e-6);
+}
+
+TEST(LitBall, Marched)
+{
+  const Ball ball(14, 5.2, 0.5);
+  const auto look =
+    [&](const char* name, const Draw& draw, double bound, double least_white = 1e-30)
+  {
+    const double error = worst_against_field(draw, ball, least_white);
+    EXPECT_LE(error, bound) << name;
+    std::cout << "  " << name << ": " << error << "\n";
+  };
+  look("shadow rays, steps of a voxel", by_marcher(ShadowMethod::Rays, 1.0), 0.03);
+  look("shadow rays, short steps", by_marcher(ShadowMethod::Rays, 1.0 / 64.0), 1e-5);
+  look("light volume, nodes of a voxel", by_marcher(ShadowMethod::Volume, 1.0 / 64.0, 1.0), 0.08);
+  look("light volume, nodes of 1/8", by_marcher(ShadowMethod::Volume, 1.0 / 64.0, 0.125), 1e-3);
+  look("functions, texels of a voxel", by_marcher(ShadowMethod::Functions, 1.0 / 64.0, 1.0), 0.09);
+  look("functions, texels of 1/8", by_marcher(ShadowMethod::Functions, 1.0 / 64.0, 0.125), 0.02);
+  look("tolerance 1e-3", by_tolerance(1e-3), 1e-3, 1.0);
+  look("tolerance 1e-5", by_tolerance(1e-5), 3e-5, 1.0); // the shortest step that is chosen is 1/32
 }
 
 // Twice as many voxels across halve what the soft edge does to the picture.

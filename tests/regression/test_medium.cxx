@@ -440,6 +440,8 @@ TEST(WithoutAMedium, EffectsCanBeForced)
   const auto volume = volume_of(0.4);
   vtkNew<vtkBrumeRayMarchMapper> mapper;
   mapper->SetInputData(ball_image(VTK_SHORT));
+  mapper->SetAutoAdjustSampleDistances(0);
+  mapper->SetSampleDistance(0.5);
   volume->SetMapper(mapper);
   volume->GetProperty()->ShadeOn();
   vtkNew<vtkCamera> camera;

@@ -5,6 +5,7 @@
 #include "transport_scenes.h"
 
 #include "Transport/reference.h"
+#include "Transport/step_control.h"
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/tools/roots.hpp>
@@ -195,6 +196,29 @@ inline Draw by_marcher(ShadowMethod shadows, double step, double shadow_step = 0
   };
 }
 
+/// The marcher's picture with the shadows and the steps that it chooses itself for a tolerance.
+inline Draw by_tolerance(double tolerance)
+{
+  return [=](const Scene& scene, int width, int height)
+  {
+    Film film(width, height);
+    Marcher marcher;
+    const ShadowChoice shadows = choose_shadows(marcher, scene, tolerance);
+    MarchSettings settings;
+    settings.leave_error = 0.25 * tolerance;
+    settings.shadows = shadows.method;
+    settings.shadow_step = shadows.step;
+    settings.precise_shadows = shadows.precise;
+    const StepChoice steps = choose_step(marcher, scene, tolerance, 0, settings);
+    settings.rule = steps.rule;
+    settings.step = steps.step;
+    settings.refinements = steps.refinements;
+    settings.refine_error = steps.refine_error;
+    marcher.render(scene, settings, film);
+    return film;
+  };
+}
+
 /// What a pixel has to be.
 struct Truth
 {
@@ -202,15 +226,15 @@ struct Truth
   glm::dvec3 transmittance;
 };
 
-/// The largest error of a picture, of radiances by the brightest of the picture (by channel), of
-/// transmittances by 1. truth(x, y).
+/// The largest error of a picture, of radiances by the brightest of the picture (by channel) or
+/// `least_white`, of transmittances by 1. truth(x, y).
 template <class TruthOf>
-double worst_error(const Film& film, const TruthOf& truth_of)
+double worst_error(const Film& film, const TruthOf& truth_of, double least_white = 1e-30)
 {
   double worst = 0.0;
   for (int c = 0; c < 3; ++c)
   {
-    double brightest = 1e-30;
+    double brightest = least_white;
     double most = 0.0;
     for (int y = 0; y < film.height; ++y)
     {
