@@ -40,6 +40,13 @@ double times(double k, double amount)
 
 }
 
+bool has_fog(const Scene& scene)
+{
+  const Fog& fog = scene.fog;
+  return scene.blend_mode == BlendMode::Composite && fog.enabled &&
+         (fog.extinction.x > 0.0 || fog.extinction.y > 0.0 || fog.extinction.z > 0.0);
+}
+
 FogModel::FogModel(const Scene& scene)
 {
   constexpr double most = std::numeric_limits<double>::max();

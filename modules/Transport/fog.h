@@ -46,6 +46,9 @@ struct FogRay
   double spread = 0.0;
 };
 
+/// Whether a scene has fog that is drawn: some that dims, in composite mode.
+bool has_fog(const Scene& scene);
+
 /// A scene's fog, prepared: its extinction is Fog::extinction · f, f = e^(−falloff · (height − base
 /// height)). All functions are finite or +infinity for any ray and any stretch from ≤ to, level, steep
 /// or so deep that f overflows; transmittance is then 0. An optical depth may be +infinity.

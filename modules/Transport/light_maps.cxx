@@ -157,7 +157,8 @@ LightMaps::Frame LightMaps::frame_of_box(double spacing) const
   return enclose<Frame>(this->Corners, directions, spacing);
 }
 
-void LightMaps::find_corners(const Scene& scene, const std::vector<VolumeTask>& volumes)
+void LightMaps::find_corners(
+  const Scene& scene, const std::vector<VolumeTask>& volumes, bool whole)
 {
   this->Corners.clear();
   for (std::size_t k = 0; k < volumes.size(); ++k)
@@ -166,7 +167,7 @@ void LightMaps::find_corners(const Scene& scene, const std::vector<VolumeTask>& 
     const glm::dmat4 world_from_index = volume.world_from_data * volume.data_from_index;
     glm::dvec3 lower(1e300);
     glm::dvec3 upper(-1e300);
-    const VisibleBricks* bricks = volumes[k].bricks;
+    const VisibleBricks* bricks = whole ? nullptr : volumes[k].bricks;
     if (bricks)
     {
       const double edge = 1 << bricks->shift;
@@ -279,7 +280,7 @@ void LightMaps::update(const Scene& scene,
   {
     if (!corners)
     {
-      this->find_corners(scene, volumes);
+      this->find_corners(scene, volumes, lit.fog.enabled);
       corners = true;
     }
   };
@@ -293,7 +294,8 @@ void LightMaps::update(const Scene& scene,
   }
   std::vector<double> common = matter;
   common.insert(common.end(),
-    { spacing, voxel, double(floats), double(lit.maps), thinnest, double(lit.shadows) });
+    { spacing, voxel, double(floats), double(lit.maps), thinnest, double(lit.shadows),
+      double(lit.fog.enabled) });
 
   const auto prepare = [&](const Frame& frame, LightLattice& lattice)
   {
@@ -380,6 +382,13 @@ void LightMaps::update(const Scene& scene,
   key.push_back(radiances[0] != glm::dvec3(0.0));
   key.push_back(radiances[1] != glm::dvec3(0.0));
   const int channels = lit.chromatic ? 3 : 1;
+  if (lit.fog.enabled)
+  {
+    append(key, scene.fog.extinction);
+    key.insert(key.end(), { scene.fog.falloff, scene.fog.base_height });
+  }
+  // From below no light comes through layers without end.
+  const bool layers = lit.fog.enabled && scene.fog.falloff > 0.0;
   if (key != this->Ambient.key)
   {
     this->Ambient.key.clear();
@@ -393,8 +402,22 @@ void LightMaps::update(const Scene& scene,
         this->E2[i] = static_cast<float>(exponential_integral_2(s * s));
       }
     }
-    SweepTask task =
-      prepare(this->frame_along(-glm::normalize(scene.sky.up), spacing), this->Ambient);
+    const Frame frame = this->frame_along(-glm::normalize(scene.sky.up), spacing);
+    SweepTask task = prepare(frame, this->Ambient);
+    std::vector<float> fog[3];
+    for (int c = 0; c < 3 && layers; ++c)
+    {
+      for (int w = 0; w < frame.dims[2]; ++w)
+      {
+        const glm::dvec3 place = frame.origin + frame.axes[2] * double(w);
+        const double height = glm::dot(place, scene.sky.up) - scene.fog.base_height;
+        const double depth = scene.fog.extinction[c] > 0.0 ? scene.fog.extinction[c] *
+            std::exp(-scene.fog.falloff * height) / scene.fog.falloff
+                                                           : 0.0;
+        fog[c].push_back(static_cast<float>(std::min(depth, 1e6)));
+      }
+      task.fog[c] = fog[c].data();
+    }
     task.result = SweepTask::Result::Ambient;
     task.floats = floats;
     task.e2 = this->E2.data();
@@ -415,7 +438,7 @@ void LightMaps::update(const Scene& scene,
   }
   for (int side = 0; side < 2; ++side)
   {
-    if (radiances[side] == glm::dvec3(0.0))
+    if (radiances[side] == glm::dvec3(0.0) || (side == 1 && layers))
     {
       continue;
     }

@@ -50,7 +50,8 @@ private:
   struct Frame;
   Frame frame_along(const glm::dvec3& axis, double spacing) const;
   Frame frame_of_box(double spacing) const;
-  void find_corners(const Scene& scene, const std::vector<VolumeTask>& volumes);
+  /// In fog, which sends light from everywhere, of whole boxes.
+  void find_corners(const Scene& scene, const std::vector<VolumeTask>& volumes, bool whole);
   double deepest(const Scene& scene, const std::vector<VolumeTask>& volumes) const;
   void run(SweepTask& task, int threads) const;
 

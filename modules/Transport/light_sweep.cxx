@@ -271,7 +271,8 @@ private:
         {
           const Real here = load(w, map);
           const Real depth = side == 0 ? here : max(total - here, hn::Zero(float_tag));
-          put(3 * side + c, u, v, w, second_exponential_integral(depth * channel));
+          const Real fog = real(Task.fog[c] ? Task.fog[c][w] : 0.0f);
+          put(3 * side + c, u, v, w, second_exponential_integral(depth * channel + fog));
         }
       }
     }

@@ -7,6 +7,7 @@
 #define BRUME_LIT_INL_H
 #endif
 
+#include "Transport/fog_gaps-inl.h"
 #include "Transport/shadow-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -16,6 +17,16 @@ namespace HWY_NAMESPACE
 {
 
 #include "Transport/phase-inl.h"
+
+HWY_INLINE Real transmittance_of(Real optical_depth)
+{
+  return hn::Exp(float_tag, hn::Neg(optical_depth));
+}
+HWY_INLINE Real mean_transmittance_of(Real x)
+{
+  return mean_transmittance(x, transmittance_of(x));
+}
+#include "Transport/fog-inl.h"
 
 /// What a packet gathers of lit media: also the transmittances of G and B.
 struct LitGathered : Gathered
@@ -52,8 +63,9 @@ struct Channels<false>
 };
 
 /// Single: one grid of densities. Chromatic: its channels differ. Rich: there is more to it than
-/// lights at infinity and one octave: lamps, octaves, sky, emission, powder.
-template <bool Single, bool Chromatic, bool Rich>
+/// lights at infinity and one octave: lamps, octaves, sky, emission, powder. Foggy: there is fog. In
+/// volumes it is one more of them, in front of, between and behind them it comes in closed form.
+template <bool Single, bool Chromatic, bool Rich, bool Foggy = false>
 class LitIntegrator
 {
 public:
@@ -61,16 +73,22 @@ public:
     : Task(task)
     , Lit(*task.lit)
     , VolumeCount(Single ? 1 : static_cast<int>(task.volumes->size()))
+    , PieceCount(VolumeCount + (Foggy ? 1 : 0))
     , LightCount(static_cast<int>(task.lit->lights.size()))
     , Depths(task)
     , Shadows(task.lit->lights.size() * (steps_at_once + 1) * 3)
-    , Phases(task.lit->lights.size() * VolumeCount * most_octaves)
+    , FogDepths(Foggy ? task.lit->lights.size() * 2 : 0)
+    , Phases(task.lit->lights.size() * PieceCount * most_octaves)
     , Functions(field_functions(task.volumes->front().field))
   {
     for (const VolumeTask& volume : *task.volumes)
     {
       Volumes.emplace_back(volume, task.step);
-      CanLeap = CanLeap || volume.bricks;
+      CanLeap = CanLeap || (volume.bricks && !Foggy);
+    }
+    if constexpr (Foggy)
+    {
+      Gaps = std::make_unique<FogGaps>(*task.fog, *task.fog_rays);
     }
     if (Rich)
     {
@@ -88,10 +106,31 @@ public:
 
   double depth_scale() const { return 1.0; }
 
+  /// To be called for each packet, before and after its stretches.
+  ///@{
+  void begin_packet(const PacketRays& packet) requires Foggy { Gaps->begin(packet); }
+  void end_packet(LitGathered& gathered, Mask& met) requires Foggy
+  {
+    gathered.coloured = Chromatic;
+    HWY_ALIGN float left[lane_count], inside[lane_count];
+    hn::Store(hn::IfThenElseZero(gathered.left, real(1.0f)), float_tag, left);
+    add_gap(gathered, [&](const auto& through, FogGap& gap) { Gaps->after(left, through, gap); });
+    for (int lane = 0; lane < lane_count; ++lane)
+    {
+      inside[lane] = Gaps->in_tile(lane) ? 1.0f : 0.0f;
+    }
+    met = hn::Load(float_tag, inside) > hn::Zero(float_tag);
+  }
+  ///@}
+
   std::uint64_t march(const Rays& rays, LitGathered& gathered)
   {
     begin(rays);
     gathered.coloured = Chromatic;
+    if constexpr (Foggy)
+    {
+      add_gap(gathered, [&](const auto& through, FogGap& gap) { Gaps->before(rays, through, gap); });
+    }
     const Real zero = hn::Zero(float_tag);
     const Real one = real(1.0f);
     Real end = rays.end;
@@ -126,7 +165,7 @@ public:
         const Real high = hn::Min(from + one, rays.end);
         stretches[i] = { low, high, (low + high) * real(0.5f), from < end };
       }
-      Piece pieces[steps_at_once][Single ? 1 : most_volumes];
+      Piece pieces[steps_at_once][most_pieces];
       empty = !look(rays, stretches, pieces, samples);
       if (empty)
       {
@@ -136,6 +175,10 @@ public:
         continue;
       }
       samples += find_shadows(stretches, fresh);
+      if constexpr (Foggy)
+      {
+        find_fog_depths(rays, stretches[0]);
+      }
       fresh = false;
       for (int i = 0; i < steps_at_once; ++i)
       {
@@ -155,6 +198,7 @@ public:
 
 private:
   static constexpr int steps_at_once = Single ? samples_between_leaps : 1;
+  static constexpr int most_pieces = Single ? 1 : most_volumes + (Foggy ? 1 : 0);
 
   struct Stretch
   {
@@ -180,6 +224,13 @@ private:
     Depths.begin(rays.lines[0]);
     const Vec3<Real> along = multiply(Lit.world_from_index, 4, rays.lines[0].delta);
     Viewer = -(along * rsqrt_or_zero(dot(along, along)));
+    if constexpr (Foggy)
+    {
+      const FogTask& fog = Lit.fog;
+      const Vec3<Real> normal = broadcast3<Real>(fog.exponent);
+      ExponentBegin = dot(normal, rays.lines[0].begin) + real(fog.exponent[3]);
+      ExponentDelta = dot(normal, rays.lines[0].delta);
+    }
     for (int l = 0; l < LightCount; ++l)
     {
       const LitLight& light = Lit.lights[l];
@@ -198,7 +249,7 @@ private:
     const Real half = real(0.5f);
     const Real one_minus = dot(apart, apart) * half;
     const Real one_plus = dot(together, together) * half;
-    for (int k = 0; k < VolumeCount; ++k)
+    for (int k = 0; k < PieceCount; ++k)
     {
       const LitVolume& volume = Lit.volumes[k];
       const std::size_t octaves = Rich ? volume.octaves.size() : 1;
@@ -211,13 +262,13 @@ private:
   }
   HWY_INLINE std::size_t phase_index(int l, int k, int m) const
   {
-    return (static_cast<std::size_t>(l) * VolumeCount + k) * most_octaves + m;
+    return (static_cast<std::size_t>(l) * PieceCount + k) * most_octaves + m;
   }
 
   /// Reads the volumes. Returns whether there is anything.
   HWY_INLINE bool look(const Rays& rays,
     const Stretch* stretches,
-    Piece (*pieces)[Single ? 1 : most_volumes],
+    Piece (*pieces)[most_pieces],
     std::uint64_t& samples) const
   {
     const Real zero = hn::Zero(float_tag);
@@ -266,8 +317,102 @@ private:
         piece.amount = piece.matter.amount;
         any = hn::Or(any, piece.amount > zero);
       }
+      if constexpr (Foggy)
+      {
+        look_at_fog(rays, stretch, pieces[0][VolumeCount]);
+        any = hn::Or(any, stretch.active);
+      }
     }
     return !hn::AllFalse(float_tag, any);
+  }
+
+  /// e^−exponent at a position of the packet's rays.
+  HWY_INLINE Real fog_exponent(Real position) const
+  {
+    return max(hn::MulAdd(position, ExponentDelta, ExponentBegin), real(FogTask::least_exponent));
+  }
+
+  /// The fog in a stretch, in closed form.
+  HWY_INLINE void look_at_fog(const Rays& rays, const Stretch& stretch, Piece& piece) const
+  {
+    const Real zero = hn::Zero(float_tag);
+    piece.inside = stretch.active;
+    piece.length =
+      hn::IfThenElseZero(stretch.active, (stretch.high - stretch.low) * rays.step_world);
+    const Real low = fog_exponent(stretch.low);
+    const Real high = fog_exponent(stretch.high);
+    const Real column = fog_column<Real>(
+      transmittance_of(low), transmittance_of(high), hn::Abs(high - low), piece.length);
+    piece.depth = clamp(column * real(Lit.fog.extinction), zero, real(FogTask::deepest));
+    piece.amount = piece.depth;
+  }
+
+  /// The fog's optical depths toward the lights where a stretch begins and ends, of a channel of 1.
+  void find_fog_depths(const Rays& rays, const Stretch& stretch)
+  {
+    const Real ends[2] = { stretch.low, stretch.high };
+    for (int i = 0; i < 2; ++i)
+    {
+      const Real exponent = fog_exponent(ends[i]);
+      const Real profile = transmittance_of(exponent);
+      for (int l = 0; l < LightCount; ++l)
+      {
+        const LitLight& light = Lit.lights[l];
+        Real depth = light.fog_hides ? real(FogTask::deepest) : profile * real(light.fog_above);
+        if (light.source.positional)
+        {
+          const Vec3<Real> way =
+            world_place(rays, ends[i]) - broadcast3<Real>(light.source.position);
+          const Real there = real(light.fog_exponent);
+          depth = real(Lit.fog.extinction) *
+            fog_column<Real>(profile, transmittance_of(there), hn::Abs(exponent - there),
+              hn::Sqrt(dot(way, way)));
+        }
+        FogDepths.set(2 * l + i, hn::Min(depth, real(FogTask::deepest)));
+      }
+    }
+  }
+  /// The fog's part of a depth toward a light.
+  HWY_INLINE Real fog_depth(int l, int i, int c) const
+  {
+    return FogDepths.get(2 * l + i) * real(Lit.volumes[VolumeCount].channels[c]);
+  }
+
+  /// Takes what the packet meets in a gap: find(through, gap) finds it.
+  template <class Find>
+  void add_gap(LitGathered& gathered, const Find& find)
+  {
+    constexpr int channels = Chromatic ? 3 : 1;
+    HWY_ALIGN float through[3][lane_count];
+    for (int c = 0; c < 3; ++c)
+    {
+      hn::Store(gathered.through[Chromatic ? c : 0], float_tag, through[c]);
+    }
+    FogGap gap;
+    find(through, gap);
+    Real* radiance[3] = { &gathered.radiance.x, &gathered.radiance.y, &gathered.radiance.z };
+    for (int c = 0; c < 3; ++c)
+    {
+      *radiance[c] = hn::MulAdd(gathered.through[Chromatic ? c : 0],
+        hn::Load(float_tag, gap.radiance[c]), *radiance[c]);
+    }
+    for (int c = 0; c < channels; ++c)
+    {
+      const Real depth = hn::Load(float_tag, gap.depth[c]);
+      gathered.depths[c].add(depth);
+      gathered.through[c] = gathered.through[c] * transmittance_of(depth);
+    }
+    gathered.transmittance = largest_through(gathered);
+    const Real place = hn::Load(float_tag, gap.half_way);
+    const Mask here = hn::Load(float_tag, gap.here) > hn::Zero(float_tag);
+    gathered.half_way = hn::IfThenElse(here, hn::Min(gathered.half_way, place), gathered.half_way);
+  }
+
+  static HWY_INLINE Real largest_through(const LitGathered& gathered)
+  {
+    return Chromatic
+      ? max(gathered.through[0], max(gathered.through[1], gathered.through[2]))
+      : gathered.through[0];
   }
 
   /// Optical depths toward the lights where the stretches begin and end. Those of place i of light l
@@ -348,18 +493,28 @@ private:
         dim[c] = dim[c] + part;
       }
     }
+    if (Foggy && Task.mixture == Mixture::Components)
+    {
+      mix_components(pieces, dim);
+    }
     estimate_error(total, gathered);
     Channels<Chromatic> passes;
     Channels<Chromatic> share; // the mean of what the stretch lets pass of its own light
     for (int c = 0; c < channels; ++c)
     {
       dim[c] = Lit.absorption ? hn::IfThenElseZero(active, dim[c]) : zero;
+      if constexpr (Foggy)
+      {
+        const Piece& fog = pieces[VolumeCount];
+        dim[c] = hn::MulAdd(hn::IfThenElseZero(active, fog.depth),
+          real(Lit.volumes[VolumeCount].channels[c]), dim[c]);
+      }
       passes[c] = hn::Exp(float_tag, hn::Neg(dim[c]));
       share[c] = mean_transmittance(dim[c], passes[c]);
     }
 
     Vec3<Real> sent{ zero, zero, zero }; // as the eye end of the stretch has it
-    for (int k = 0; k < VolumeCount; ++k)
+    for (int k = 0; k < PieceCount; ++k)
     {
       if (!hn::AllFalse(float_tag, pieces[k].amount > zero))
       {
@@ -381,11 +536,27 @@ private:
       gathered.through[c] =
         hn::NegMulAdd(gathered.through[c], dim[c] * share[c], gathered.through[c]);
     }
-    gathered.transmittance = Chromatic
-      ? max(gathered.through[0], max(gathered.through[1], gathered.through[2]))
-      : gathered.through[0];
+    gathered.transmittance = largest_through(gathered);
     gathered.note_half_way(
       hn::And(active, gathered.transmittance < real(0.5f)), rays, stretch.middle);
+  }
+
+  /// See Mixture::Components: of extinctions that add up to Σ the sum of squares over Σ is taken.
+  HWY_INLINE void mix_components(const Piece* pieces, Channels<Chromatic>& dim) const
+  {
+    const Real least = real(1e-18f); // squares of less are nothing
+    for (int c = 0; c < (Chromatic ? 3 : 1); ++c)
+    {
+      Real squares = hn::Zero(float_tag);
+      for (int k = 0; k < VolumeCount; ++k)
+      {
+        const Real part =
+          Chromatic ? pieces[k].depth * real(Lit.volumes[k].channels[c]) : pieces[k].depth;
+        squares = hn::MulAdd(part, part, squares);
+      }
+      const Mask some = dim[c] > least;
+      dim[c] = hn::IfThenElse(some, squares / hn::IfThenElse(some, dim[c], least), dim[c]);
+    }
   }
 
   /// Adds what one volume sends of a stretch.
@@ -400,9 +571,11 @@ private:
     Vec3<Real>& sent)
   {
     const LitVolume& medium = Lit.volumes[k];
-    const VolumeTask& volume = *(Task.volumes->data() + k);
+    // The fog is no grid: what follows does not look at one.
+    const bool fog = Foggy && k == VolumeCount;
+    const VolumeTask& volume = *(Task.volumes->data() + (fog ? 0 : k));
     Real* out[3] = { &sent.x, &sent.y, &sent.z };
-    const bool classified = !Single && volume.meaning == ValueMeaning::Classified;
+    const bool classified = !Single && !fog && volume.meaning == ValueMeaning::Classified;
     Vec3<Real> colour{ real(1.0f), real(1.0f), real(1.0f) };
     Matter matter;
     if (classified)
@@ -525,6 +698,11 @@ private:
           begin = begin * real(medium.octaves[m].attenuation);
           end = end * real(medium.octaves[m].attenuation);
           factor = factor * real(medium.octaves[m].contribution);
+        }
+        if constexpr (Foggy)
+        {
+          begin = begin + fog_depth(l, 0, c);
+          end = end + fog_depth(l, 1, c);
         }
         light[c] = hn::MulAdd(factor, mean_light(begin, end, dim[c], passes[c]), light[c]);
       }
@@ -744,7 +922,14 @@ private:
       for (int c = 0; c < (Chromatic ? 3 : 1); ++c)
       {
         const Real scale = Chromatic ? channel(c) : real(1.0f);
-        reaches[c] = mean_light(from[c] * scale, to[c] * scale, dim[c], passes[c]);
+        Real begin = from[c] * scale;
+        Real end = to[c] * scale;
+        if constexpr (Foggy)
+        {
+          begin = begin + fog_depth(l, 0, c);
+          end = end + fog_depth(l, 1, c);
+        }
+        reaches[c] = mean_light(begin, end, dim[c], passes[c]);
       }
       for (int c = 0; c < 3; ++c)
       {
@@ -773,10 +958,12 @@ private:
   const MarchTask& Task;
   const LitTask& Lit;
   int VolumeCount;
+  int PieceCount; ///< volumes and fog
   int LightCount;
   std::vector<MatterVolume> Volumes;
   LightDepths Depths;
   PacketArray Shadows;
+  PacketArray FogDepths;
   PacketArray Phases;
   FieldFunctions Functions;
   std::vector<FieldFunctions> Temperatures;
@@ -785,10 +972,13 @@ private:
   Vec3<Real> Viewer;
   Real DepthBefore;
   Real DepthEarlier;
+  Real ExponentBegin; ///< of the fog's profile: at position 0, and from one step to the next
+  Real ExponentDelta;
+  std::unique_ptr<FogGaps> Gaps;
 };
 
-template <bool Single, bool Chromatic, bool Rich>
-struct RecordOf<LitIntegrator<Single, Chromatic, Rich>>
+template <bool Single, bool Chromatic, bool Rich, bool Foggy>
+struct RecordOf<LitIntegrator<Single, Chromatic, Rich, Foggy>>
 {
   using type = LitGathered;
 };

@@ -103,13 +103,13 @@ double hottest(const Grid& grid)
 
 bool needs_lit_kernels(const Scene& scene)
 {
-  return scene.blend_mode == BlendMode::Composite &&
+  return has_fog(scene) || (scene.blend_mode == BlendMode::Composite &&
     std::any_of(scene.volumes.begin(), scene.volumes.end(),
       [](const Volume& v)
       {
         const glm::dvec3 c = channels_of(v);
         return v.medium.lit || c.x != c.y || c.x != c.z || c.x != 1.0;
-      });
+      }));
 }
 
 bool has_exact_shadow_rays(const Scene& scene)
@@ -235,6 +235,55 @@ void LitTables::fill_light(const Scene& scene, const Light& light, LitLight& lit
   }
 }
 
+void LitTables::fill_fog(const Scene& scene)
+{
+  LitTask& task = this->Task;
+  task.fog = FogTask();
+  this->TheFog.reset();
+  if (!has_fog(scene))
+  {
+    return;
+  }
+  this->TheFog.emplace(scene);
+  const Fog& fog = scene.fog;
+  FogTask& target = task.fog;
+  const double largest = std::max({ fog.extinction.x, fog.extinction.y, fog.extinction.z });
+  target.enabled = true;
+  target.extinction = static_cast<float>(std::min(largest, 1e30));
+  target.falloff = static_cast<float>(std::min(fog.falloff, 1e30));
+  // The height is linear in index space: multiplied out in double precision, where places far from the
+  // origin keep their digits.
+  const glm::dvec4 up(scene.sky.up, -fog.base_height);
+  const glm::dvec4 exponent = (up * world_from_index(scene.volumes[0])) * fog.falloff;
+  for (int i = 0; i < 4; ++i)
+  {
+    target.exponent[i] = static_cast<float>(exponent[i]);
+  }
+  LitVolume matter;
+  matter.lit = true;
+  for (int c = 0; c < 3; ++c)
+  {
+    matter.albedo[c] = static_cast<float>(fog.albedo[c]);
+    matter.channels[c] = static_cast<float>(fog.extinction[c] / largest);
+  }
+  matter.octaves.push_back({ 1.0f, 1.0f, prepare_phase(fog.lobes) });
+  task.volumes.push_back(matter);
+  for (std::size_t l = 0; l < task.lights.size(); ++l)
+  {
+    const Light& light = scene.lights[l];
+    LitLight& lit = task.lights[l];
+    const double rise = -glm::dot(light.direction, scene.sky.up);
+    const double height = glm::dot(light.position, scene.sky.up) - fog.base_height;
+    const bool layers = fog.falloff > 0.0;
+    lit.fog_hides = layers && !light.positional && !(rise * fog.falloff > 0.0);
+    lit.fog_above = layers && !lit.fog_hides
+      ? static_cast<float>(std::min(largest / (fog.falloff * rise), 1e30))
+      : 0.0f;
+    lit.fog_exponent = static_cast<float>(
+      std::clamp(fog.falloff * height, double(FogTask::least_exponent), 1e30));
+  }
+}
+
 void LitTables::find_channels(const Scene& scene)
 {
   const glm::dvec3 first = channels_of(scene.volumes[0]);
@@ -242,6 +291,9 @@ void LitTables::find_channels(const Scene& scene)
     [&](const Volume& v) { return channels_of(v) == first; });
   this->Task.maps = same ? 1 : 3;
   this->Task.chromatic = !same || first.x != first.y || first.x != first.z || first.x != 1.0;
+  const glm::dvec3& fog = scene.fog.extinction;
+  this->Task.chromatic =
+    this->Task.chromatic || (has_fog(scene) && (fog.x != fog.y || fog.x != fog.z));
   for (int c = 0; c < 3; ++c)
   {
     this->Task.channels[c] = same ? static_cast<float>(first[c]) : 1.0f;
@@ -294,6 +346,28 @@ double LitTables::find_brightest(
   return most;
 }
 
+double LitTables::brightest_fog(const Scene& scene) const
+{
+  if (!this->TheFog)
+  {
+    return 0.0;
+  }
+  const PhaseModel phase = prepare_phase(scene.fog.lobes);
+  double most = 0.0;
+  for (int c = 0; c < 3; ++c)
+  {
+    double source = 0.5 * (scene.sky.radiance[c] + scene.sky.ground[c]);
+    for (const Light& light : scene.lights)
+    {
+      const double strongest = light.positional ? 1.0 / std::max(1e-3, light.attenuation.x) : 1.0;
+      source += pi * light.diffuse[c] * strongest *
+        this->largest_phase_toward_camera(scene, light, phase);
+    }
+    most = std::max(most, scene.fog.albedo[c] * source);
+  }
+  return most;
+}
+
 double LitTables::largest_phase_toward_camera(
   const Scene& scene, const Light& light, const PhaseModel& phase) const
 {
@@ -337,8 +411,9 @@ void LitTables::update(const Scene& scene,
   task.volumes.resize(count);
   task.frames.resize(count);
   this->Glows.resize(count);
-  const bool lit = std::any_of(
-    scene.volumes.begin(), scene.volumes.end(), [](const Volume& v) { return v.medium.lit; });
+  const bool lit = has_fog(scene) ||
+    std::any_of(
+      scene.volumes.begin(), scene.volumes.end(), [](const Volume& v) { return v.medium.lit; });
   bool plain = true;
   for (std::size_t k = 0; k < count; ++k)
   {
@@ -354,6 +429,7 @@ void LitTables::update(const Scene& scene,
     this->fill_light(scene, scene.lights[l], task.lights[l]);
     plain = plain && !scene.lights[l].positional;
   }
+  this->fill_fog(scene);
   store4(world_from_index(scene.volumes[0]), task.world_from_index);
   task.absorption = settings.absorption;
   const double voxel = smallest_edge(scene.volumes[0]);
@@ -407,7 +483,7 @@ void LitTables::update(const Scene& scene,
     task.ambient.clear();
   }
   task.rich = !plain;
-  this->Brightest = this->find_brightest(scene, volumes);
+  this->Brightest = std::max(this->find_brightest(scene, volumes), this->brightest_fog(scene));
 }
 
 }

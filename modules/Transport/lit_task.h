@@ -48,6 +48,11 @@ struct LitLight
 {
   float irradiance[3] = { 0, 0, 0 }; ///< π · Light::diffuse
   ShadeLight source{};               ///< its place, direction, attenuation and cone
+  /// In fog: its optical depth up to a light at infinity where its profile is 1, or that no light of it
+  /// arrives; of a light that is not at infinity, the exponent (FogTask) at its place.
+  float fog_above = 0.0f;
+  bool fog_hides = false;
+  float fog_exponent = 0.0f;
   /// Index space: the vector toward a light at infinity, of a world unit's length; the place of one
   /// that is not.
   float toward[3] = { 0, 0, 0 };
@@ -106,11 +111,25 @@ struct AmbientLight
   LightGrid share[3]; ///< of R, G, B; the same three where maps is 1 and the channels are equal
 };
 
+/// Fog (fog.h), as kernels read it. Its profile is e^(−exponent), the exponent linear in index space.
+struct FogTask
+{
+  bool enabled = false;
+  float extinction = 0.0f; ///< where the profile is 1, per world unit; LitVolume::channels times it
+  float falloff = 0.0f;
+  float exponent[4] = { 0, 0, 0, 0 }; ///< of the place (x, y, z): this times (x, y, z, 1)
+  /// The profile is cut off at e^80, and depths at 1e30: deeper is as dark, and single precision holds
+  /// their products.
+  static constexpr float least_exponent = -80.0f;
+  static constexpr float deepest = 1e30f;
+};
+
 struct VolumeTask;
 
 struct LitTask
 {
-  std::vector<LitVolume> volumes; ///< as many as the scene's
+  std::vector<LitVolume> volumes; ///< as many as the scene's, and one for the fog, if there is any
+  FogTask fog;
   std::vector<LitFrame> frames;
   std::vector<LitLight> lights;
   std::vector<AmbientLight> ambient;
@@ -153,6 +172,8 @@ struct SweepTask
   /// Depth, Functions: one a map. Ambient: R, G, B of the light that enters at node 0, then of that
   /// which enters at the other end. Null: not wanted.
   void* out[6] = { nullptr, nullptr, nullptr, nullptr, nullptr, nullptr };
+  /// Ambient, in fog: its optical depth upward at each node of the third axis, R, G, B; null: none.
+  const float* fog[3] = { nullptr, nullptr, nullptr };
   const float* e2 = nullptr; ///< Ambient: E₂(s²) at even distances of s over [0, e2_last]
   static constexpr int e2_intervals = 16384;
   static constexpr float e2_last = 6.0f;

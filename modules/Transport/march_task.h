@@ -57,11 +57,15 @@ struct VolumeTask
 };
 
 struct LitTask;
+class FogModel;
+class FogRays;
 
 struct MarchTask
 {
   const std::vector<VolumeTask>* volumes = nullptr;
   const LitTask* lit = nullptr; ///< of lit media
+  const FogModel* fog = nullptr; ///< with lit, of fog
+  const FogRays* fog_rays = nullptr;
   const RayMaker* rays = nullptr;
   StepRule rule = StepRule::Midpoint;
   Mixture mixture = Mixture::Sum;
@@ -91,6 +95,7 @@ MarchCount march_composite(const MarchTask& task); ///< one classified grid
 MarchCount march_mixture(const MarchTask& task);   ///< any number of volumes, masks, colours
 MarchCount march_lit_density(const MarchTask& task); ///< one grid of densities, lit
 MarchCount march_lit_mixture(const MarchTask& task); ///< any volumes, some of them lit
+MarchCount march_fog(const MarchTask& task);         ///< any volumes, in fog
 MarchCount march_extreme(const MarchTask& task);   ///< MaximumIntensity, MinimumIntensity
 MarchCount march_mean(const MarchTask& task);      ///< AverageIntensity
 MarchCount march_sum(const MarchTask& task);       ///< Additive

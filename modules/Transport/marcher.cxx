@@ -1,5 +1,6 @@
 #include "Transport/marcher.h"
 
+#include "Transport/fog_film.h"
 #include "Transport/lit_tables.h"
 #include "Transport/march_task.h"
 #include "Transport/mode_tables.h"
@@ -19,6 +20,7 @@
 #include <cstdlib>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 
@@ -70,6 +72,10 @@ Integrator find_integrator(const Scene& scene, bool absorption)
       return march_slice;
   }
   const bool plain = scene.volumes.size() == 1 && is_plain(scene.volumes[0]);
+  if (has_fog(scene))
+  {
+    return march_fog;
+  }
   if (takes_lit_kernels(scene, absorption))
   {
     return plain && scene.volumes[0].meaning == ValueMeaning::Density ? march_lit_density
@@ -120,6 +126,10 @@ double smallest_voxel_edge(const std::vector<Volume>& volumes)
 
 bool follows_rule(const Scene& scene, StepRule rule)
 {
+  if (scene.volumes.empty())
+  {
+    return rule == StepRule::Midpoint;
+  }
   const Volume& volume = scene.volumes[0];
   const bool plain = scene.volumes.size() == 1 && is_plain(volume) &&
     scene.blend_mode == BlendMode::Composite && !needs_lit_kernels(scene);
@@ -279,6 +289,26 @@ struct Marcher::Cache
   }
 };
 
+namespace
+{
+
+MarchStatistics render_fog_alone(
+  const Scene& scene, const MarchSettings& settings, Film& film, const Progress& progress)
+{
+  MarchStatistics statistics;
+  const auto start = std::chrono::steady_clock::now();
+  statistics.completed = render_fog(scene, film, settings.threads, progress);
+  statistics.seconds = seconds_since(start);
+  statistics.step = settings.step;
+  statistics.threads =
+    settings.threads > 0 ? settings.threads : tbb::info::default_concurrency();
+  const std::string targets = simd_targets();
+  statistics.simd = targets.substr(0, targets.find(' '));
+  return statistics;
+}
+
+}
+
 Marcher::Marcher()
   : Kept(std::make_unique<Cache>())
 {
@@ -305,6 +335,11 @@ MarchStatistics Marcher::render(
   if (film.width <= 0 || film.height <= 0)
   {
     throw std::invalid_argument("the film has no pixels");
+  }
+
+  if (scene.volumes.empty())
+  {
+    return render_fog_alone(scene, settings, film, progress);
   }
 
   const bool surfaces =
@@ -369,6 +404,13 @@ MarchStatistics Marcher::render(
     statistics.light_bytes = lit.bytes();
     brightest = std::max(brightest, lit.brightest());
     common.lit = &lit.task();
+    common.fog = lit.fog();
+  }
+  std::optional<FogRays> fog_rays;
+  if (common.fog)
+  {
+    fog_rays.emplace(scene, *common.fog, film.width, film.height);
+    common.fog_rays = &*fog_rays;
   }
   common.volumes = &volumes;
   common.rays = &rays;
@@ -410,7 +452,7 @@ MarchStatistics Marcher::render(
   std::atomic<int> done{ 0 };
   std::atomic<bool> aborted{ false };
   const std::thread::id caller = std::this_thread::get_id();
-  if (visible_bricks > 0 || scene.blend_mode == BlendMode::Additive)
+  if (visible_bricks > 0 || common.fog || scene.blend_mode == BlendMode::Additive)
   {
     arena.execute(
       [&]

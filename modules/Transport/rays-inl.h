@@ -429,7 +429,8 @@ void store(const MarchTask& task,
   }
 }
 
-/// Marches one packet. Returns its samples and rays.
+/// Marches one packet. Returns its samples and rays. An integrator may have begin_packet and
+/// end_packet, for what its rays meet outside of all volumes.
 template <class Integrator, class Record>
 MarchCount march_packet(
   Integrator& integrator, PacketRays& packet, int x, int y, Record& gathered, Mask& met)
@@ -438,6 +439,10 @@ MarchCount march_packet(
   Rays rays;
   int hits = 0;
   packet.begin(x, y);
+  if constexpr (requires { integrator.begin_packet(packet); })
+  {
+    integrator.begin_packet(packet);
+  }
   while (packet.next(rays, hits))
   {
     if (hits == 0)
@@ -448,6 +453,10 @@ MarchCount march_packet(
     met = hn::Or(met, rays.end > hn::Zero(float_tag));
     rays.end = hn::IfThenZeroElse(gathered.left, rays.end);
     count.samples += integrator.march(rays, gathered);
+  }
+  if constexpr (requires { integrator.end_packet(gathered, met); })
+  {
+    integrator.end_packet(gathered, met);
   }
   return count;
 }
@@ -511,7 +520,7 @@ MarchCount march_tile(const MarchTask& task)
           continue;
         }
         count.rays += packet.rays;
-        if (packet.rays > 0)
+        if (!hn::AllFalse(float_tag, met))
         {
           store(level.task, level.packet, met, gathered, level.integrator.depth_scale());
         }

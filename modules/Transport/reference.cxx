@@ -45,7 +45,7 @@ bool for_each_ray(const Scene& scene,
             for (int x = 0; x < film.width; ++x)
             {
               const PixelRay ray = rays.ray(x, y);
-              if (!ray.empty())
+              if (!ray.empty() || has_fog(scene))
               {
                 draw(static_cast<std::size_t>(y) * film.width + x, ray);
               }
@@ -109,6 +109,13 @@ ReferenceStatistics render_reference(const Scene& scene, const ReferenceSettings
   scene.validate();
   ReferenceStatistics statistics;
   const auto start = std::chrono::steady_clock::now();
+  if (scene.volumes.empty()) // fog alone, in closed form
+  {
+    statistics.completed = render_fog(scene, film, settings.threads, progress);
+    statistics.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return statistics;
+  }
   const ReferenceScene prepared(scene);
   std::mutex mutex;
   double total_change = 0.0;

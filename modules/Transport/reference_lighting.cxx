@@ -70,10 +70,11 @@ double remap(double x, double from, double to, double first, double last)
 bool needs_lighting(const Scene& scene)
 {
   return scene.blend_mode == BlendMode::Composite &&
-         std::any_of(scene.volumes.begin(),
-           scene.volumes.end(),
-           [](const Volume& volume)
-           { return volume.medium.lit || channels(volume) != glm::dvec3(1.0); });
+         (has_fog(scene) ||
+           std::any_of(scene.volumes.begin(),
+             scene.volumes.end(),
+             [](const Volume& volume)
+             { return volume.medium.lit || channels(volume) != glm::dvec3(1.0); }));
 }
 
 struct ReferenceLighting::Lamp
@@ -115,7 +116,7 @@ struct ReferenceLighting::Body
 {
   const ReferenceMedium* matter;
   std::vector<PhaseModel> octaves;
-  ShadeModel unlit;               ///< without a light
+  ShadeModel unlit;                ///< without a light
   std::vector<ShadeModel> by_lamp; ///< with one light each, and no ambient light
   std::unique_ptr<ReferenceGrid> temperature;
   glm::dvec4 height{ 0.0 }; ///< h = height · (world place, 1)
@@ -176,6 +177,22 @@ ReferenceLighting::ReferenceLighting(const Scene& scene, const std::vector<Refer
     body.find_height(scene.sky);
     this->Bodies.push_back(std::move(body));
   }
+  if (has_fog(scene))
+  {
+    this->Fog = std::make_unique<FogModel>(scene);
+    this->FogPhase = prepare_phase(scene.fog.lobes);
+  }
+}
+
+glm::dvec3 ReferenceLighting::sent_by_fog(const Arriving& light) const
+{
+  glm::dvec3 sum = light.ambient;
+  for (const Arriving::Beam& beam : light.beams)
+  {
+    sum += beam.irradiance * glm::exp(-beam.depth) *
+           scalar::phase<double>(this->FogPhase, beam.one_minus_cosine, beam.one_plus_cosine);
+  }
+  return this->TheScene.fog.albedo * sum;
 }
 
 void ReferenceLighting::Body::find_height(const Sky& sky)
@@ -240,9 +257,9 @@ glm::dvec3 ReferenceLighting::Body::scattered(const FoundMatter& found, const Ar
   {
     for (const Arriving::Beam& beam : light.beams)
     {
-      sum += beam.irradiance * glm::exp(-attenuation * beam.depth) *
-             (contribution *
-               scalar::phase<double>(model, beam.one_minus_cosine, beam.one_plus_cosine));
+      sum +=
+        beam.irradiance * glm::exp(-attenuation * beam.depth) *
+        (contribution * scalar::phase<double>(model, beam.one_minus_cosine, beam.one_plus_cosine));
     }
     contribution *= octaves.contribution;
     attenuation *= octaves.attenuation;
@@ -250,8 +267,8 @@ glm::dvec3 ReferenceLighting::Body::scattered(const FoundMatter& found, const Ar
   return this->medium().albedo * found.colour * sum * this->powder(found, light.world);
 }
 
-/// As scattered(), where shading takes the place of the phase function: matter of the albedo's colour,
-/// and powder leaves it alone.
+/// As scattered(), where shading takes the place of the phase function: matter of the albedo's
+/// colour, and powder leaves it alone.
 glm::dvec3 ReferenceLighting::Body::shaded(const FoundMatter& found, const Arriving& light) const
 {
   using scalar::Vec3;
@@ -307,28 +324,36 @@ ReferenceLighting::Arriving ReferenceLighting::arriving(const PixelRay& ray,
     const double strength =
       scalar::incidence<double>(lamp.at_origin, to_scalar(beam.offset)).strength;
     beam.irradiance = pi * strength * lamp.light->diffuse;
+    if (this->Fog)
+    {
+      beam.irradiance *= this->Fog->light_transmittance(result.beams.size(), result.world);
+    }
     const glm::dvec3 less = travel - result.toward_eye;
     const glm::dvec3 more = travel + result.toward_eye;
     beam.one_minus_cosine = 0.5 * glm::dot(less, less);
     beam.one_plus_cosine = 0.5 * glm::dot(more, more);
     if (strength > 0.0)
     {
-      beam.depth = this->optical_depth(result.world,
-        lamp.light->positional ? -beam.offset : -travel * outside,
-        pieces,
-        samples);
+      beam.depth = this->optical_depth(
+        result.world, lamp.light->positional ? -beam.offset : -travel * outside, pieces, samples);
     }
     result.beams.push_back(beam);
   }
   result.ambient = glm::dvec3(0.0);
   const Sky& sky = this->TheScene.sky;
+  const bool layers = this->Fog && this->TheScene.fog.falloff > 0.0;
   for (const double side : { 1.0, -1.0 })
   {
     const glm::dvec3& radiance = side > 0.0 ? sky.radiance : sky.ground;
-    if (shines(radiance))
+    if (shines(radiance) && !(layers && side < 0.0)) // layers have no lower end
     {
-      const glm::dvec3 depth =
+      glm::dvec3 depth =
         this->optical_depth(result.world, sky.up * (side * outside), pieces, samples);
+      if (layers)
+      {
+        depth += this->Fog->optical_depth(
+          this->Fog->profile(result.world) / this->TheScene.fog.falloff);
+      }
       for (int c = 0; c < 3; ++c)
       {
         result.ambient[c] += 0.5 * radiance[c] * exponential_integral_2(depth[c]);
@@ -384,6 +409,17 @@ Sent ReferenceLighting::sent(const PixelRay& ray,
                 (is_shaded ? body.shaded(found, light) : body.scattered(found, light)));
   }
   result.extinction = mix.total(this->TheScene.mixture);
+  if (this->Fog)
+  {
+    const glm::dvec3 depth =
+      this->Fog->optical_depth(this->Fog->profile(ray.world_place(s)) * ray.world_length);
+    if (!has_arrived)
+    {
+      light = this->arriving(ray, s, pieces, samples);
+    }
+    result.extinction += depth;
+    result.radiance += depth * this->sent_by_fog(light);
+  }
   return result;
 }
 

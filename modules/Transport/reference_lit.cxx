@@ -11,8 +11,8 @@ namespace
 {
 
 /// The three-stage Gauss–Legendre rule on [0, 1]: the points, and for each the weights of the three
-/// values for the integral from 0 to it and, last, to 1 (E. Hairer, S. P. Nørsett, G. Wanner, Solving
-/// Ordinary Differential Equations I, 1993, II.7).
+/// values for the integral from 0 to it and, last, to 1 (E. Hairer, S. P. Nørsett, G. Wanner,
+/// Solving Ordinary Differential Equations I, 1993, II.7).
 constexpr double root_15 = 3.87298334620741688518;
 constexpr double gauss_points[3] = { 0.5 - root_15 / 10.0, 0.5, 0.5 + root_15 / 10.0 };
 constexpr double gauss_weights[4][3] = {
@@ -72,6 +72,32 @@ void add_light_cuts(const Light& light, const PixelRay& ray, std::vector<double>
   }
 }
 
+/// Takes a stretch of the ray, as the fog has it, that lies in no volume.
+void pass_fog(const FogModel& fog, const PixelRay& ray, double from, double to, RayResult& result)
+{
+  if (!(to > from))
+  {
+    return;
+  }
+  const double before = result.passes();
+  result.radiance += result.transmittance * fog.radiance(ray.fog, from, to);
+  const glm::dvec3 begin = result.transmittance;
+  result.transmittance *= fog.transmittance(ray.fog, from, to);
+  if (before >= 0.5 && result.passes() < 0.5 && std::isinf(result.half_way))
+  {
+    double near_end = 0.0;
+    double far_end = std::min(fog.column(ray.fog, from, to), 1e300);
+    for (int i = 0; i < 200; ++i)
+    {
+      const double middle = 0.5 * (near_end + far_end);
+      const glm::dvec3 passes = begin * glm::exp(-fog.optical_depth(middle));
+      (std::max({ passes.x, passes.y, passes.z }) < 0.5 ? far_end : near_end) = middle;
+    }
+    const double way = fog.place_of_column(ray.fog, from, far_end) - ray.fog_near_plane;
+    result.half_way = ray.world_length > 0.0 ? std::max(way, 0.0) / ray.world_length : 0.0;
+  }
+}
+
 class LitRay final : public RayIntegral
 {
 public:
@@ -85,7 +111,8 @@ public:
       add_light_cuts(light, ray, cuts);
     }
     std::sort(cuts.begin(), cuts.end());
-    for (const RayInterval& interval : ray.intervals())
+    this->Intervals = ray.intervals();
+    for (const RayInterval& interval : this->Intervals)
     {
       CellWalk walk({ interval.from, interval.to });
       for (int v : interval.volumes)
@@ -116,8 +143,19 @@ public:
     glm::dvec3 depth(0.0);
     // Shadow rays get finer with the pieces, but more slowly: their rule is of a higher order.
     const int shadow_pieces = static_cast<int>(std::ceil(std::sqrt(double(pieces))));
+    const FogModel* fog = this->TheScene.lighting->fog();
+    const auto distance = [&](double s)
+    { return this->TheRay.fog_near_plane + s * this->TheRay.world_length; };
+    double fog_from = 0.0;
+    auto interval = this->Intervals.begin();
     for (const Stretch& stretch : this->Stretches)
     {
+      for (; fog && interval != this->Intervals.end() && interval->from <= stretch.part.from;
+           ++interval)
+      {
+        pass_fog(*fog, this->TheRay, fog_from, distance(interval->from), result);
+        fog_from = distance(interval->to);
+      }
       const int count = pieces * stretch.factor;
       const double width = (stretch.part.to - stretch.part.from) / count;
       for (int piece = 0; piece < count; ++piece)
@@ -150,8 +188,12 @@ public:
       }
       if (result.passes() < nothing_lit_passes)
       {
-        break;
+        return result;
       }
+    }
+    if (fog)
+    {
+      pass_fog(*fog, this->TheRay, fog_from, this->TheRay.fog_end, result);
     }
     return result;
   }
@@ -193,7 +235,16 @@ private:
         depth = std::max(depth, medium.extinction(ray.place(s)) * ray.length);
       }
     }
-    if (stretch.volume_count > 0)
+    if (const FogModel* fog = this->TheScene.lighting->fog())
+    {
+      for (const double s : { part.from, part.to })
+      {
+        const double profile = fog->profile(this->TheRay.world_place(s));
+        const glm::dvec3 deep = fog->optical_depth(profile * this->TheRay.world_length);
+        depth = std::max({ depth, deep.x, deep.y, deep.z });
+      }
+    }
+    if (stretch.volume_count > 0 || this->TheScene.lighting->fog())
     {
       // The rule is at its best where no piece is deep.
       constexpr double most_pieces = 64.0;
@@ -206,6 +257,7 @@ private:
 
   const ReferenceScene& TheScene;
   const PixelRay& TheRay;
+  std::vector<RayInterval> Intervals;
   std::vector<int> Volumes;
   std::vector<Stretch> Stretches;
 };

@@ -95,6 +95,11 @@ ReferenceRays::ReferenceRays(const Scene& scene, int width, int height)
       corners.emplace_back(this->Frames.back().world_from_index * place);
     }
   }
+  if (has_fog(scene))
+  {
+    this->Fog = std::make_unique<FogModel>(scene);
+    this->FogWays = std::make_unique<FogRays>(scene, *this->Fog, width, height);
+  }
   glm::dvec3 lower = corners.front();
   glm::dvec3 upper = corners.front();
   for (const glm::dvec3& corner : corners)
@@ -137,6 +142,12 @@ PixelRay ReferenceRays::ray(int x, int y) const
     {
       frame.find_parts(ray);
     }
+  }
+  if (this->FogWays)
+  {
+    result.fog = this->FogWays->ray(x, y);
+    result.fog_near_plane = this->FogWays->near_plane(x, y, result.fog);
+    result.fog_end = this->FogWays->end(x, y, result.fog);
   }
   return result;
 }

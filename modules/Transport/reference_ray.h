@@ -3,12 +3,14 @@
 // opaque surface, the same for all volumes.
 #pragma once
 
+#include "Transport/fog_film.h"
 #include "Transport/scene.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
+#include <memory>
 #include <vector>
 
 namespace brume
@@ -46,6 +48,10 @@ struct PixelRay
   double world_length = 0.0;      ///< from s = 0 to s = 1
   glm::dvec3 world_begin{ 0.0 };
   glm::dvec3 world_along{ 0.0 };
+  /// The same ray as the scene's fog has it, and where s = 0 and the fog's end are on it.
+  FogRay fog;
+  double fog_near_plane = 0.0;
+  double fog_end = 0.0;
 
   glm::dvec3 world_place(double s) const { return world_begin + world_along * s; }
   bool empty() const;
@@ -91,6 +97,8 @@ private:
   std::vector<RayFrame> Frames;
   glm::dvec3 Centre{ 0.0 };
   double Radius = 0.0;
+  std::unique_ptr<FogModel> Fog; ///< null where there is none
+  std::unique_ptr<FogRays> FogWays;
 };
 
 /// The places where a ray passes from one voxel cell to the next: cuts [from, to] into stretches in

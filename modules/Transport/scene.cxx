@@ -1,5 +1,7 @@
 #include "Transport/scene.h"
 
+#include "Transport/fog.h"
+
 #include <glm/geometric.hpp>
 
 #include <cmath>
@@ -74,7 +76,8 @@ void validate(const Volume& volume)
 
 void Scene::validate() const
 {
-  require(!this->volumes.empty(), "a scene needs a volume");
+  require(
+    !this->volumes.empty() || has_fog(*this), "a scene needs a volume, or fog in composite mode");
   for (const Volume& volume : this->volumes)
   {
     brume::validate(volume);

@@ -232,7 +232,7 @@ enum class Mixture
 /// that share its voxels, with a component each, mixed as Mixture::Components.
 struct Scene
 {
-  std::vector<Volume> volumes = std::vector<Volume>(1); ///< at least one
+  std::vector<Volume> volumes = std::vector<Volume>(1); ///< at least one, or none in fog
   Mixture mixture = Mixture::Sum;
   BlendMode blend_mode = BlendMode::Composite;
   /// Values outside are left out of AverageIntensity; both ends are inside.
@@ -244,7 +244,7 @@ struct Scene
 
   std::vector<Light> lights;
   Sky sky; ///< of lit media and fog
-  Fog fog;
+  Fog fog; ///< in BlendMode::Composite
   Camera camera;
 
   /// Opaque geometry: normalised device depth in [-1, 1] of the nearest surface of each pixel, rows
