@@ -4,11 +4,16 @@
 #include "private_display.h"
 #include "volume_scene.h"
 
+#include "Transport/scene.h"
+
+#include "vtkBrumeSky.h"
+
 #include "vtkActor.h"
 #include "vtkCellData.h"
 #include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
 #include "vtkCommand.h"
+#include "vtkLight.h"
 #include "vtkLightCollection.h"
 #include "vtkNew.h"
 #include "vtkOBJReader.h"
@@ -24,8 +29,11 @@
 #include "vtkUnsignedCharArray.h"
 #include "vtkXMLPolyDataReader.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -92,7 +100,7 @@ bool has_colours(vtkPolyData* mesh)
   return colours(mesh->GetPointData()) || colours(mesh->GetCellData());
 }
 
-vtkSmartPointer<vtkActor> actor_of(vtkPolyData* mesh, const MediumOptions& light)
+vtkSmartPointer<vtkActor> actor_of(vtkPolyData* mesh)
 {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(mesh);
@@ -101,16 +109,114 @@ vtkSmartPointer<vtkActor> actor_of(vtkPolyData* mesh, const MediumOptions& light
   actor->SetMapper(mapper);
   vtkProperty* property = actor->GetProperty();
   property->SetColor(grey, grey, grey);
-  // A diffuse surface between two even halves of the sphere has their mean where it stands upright.
-  double ambient[3];
-  for (int c = 0; c < 3; ++c)
-  {
-    ambient[c] = grey * 0.5 * (light.sky_radiance[c] + light.ground_radiance[c]);
-  }
-  property->SetAmbientColor(ambient);
-  property->SetAmbient(light.has_lights() ? 1.0 : 0.0);
   return actor;
 }
+
+/// A directional light as VTK shades by it: `colour` is what a white surface that faces it sends.
+vtkSmartPointer<vtkLight> light_along(const glm::dvec3& travel, const glm::dvec3& colour)
+{
+  auto light = vtkSmartPointer<vtkLight>::New();
+  light->SetLightTypeToSceneLight();
+  light->SetPosition(-travel.x, -travel.y, -travel.z);
+  light->SetFocalPoint(0.0, 0.0, 0.0);
+  light->SetColor(colour.x, colour.y, colour.z);
+  return light;
+}
+
+/// All that lights surfaces: the scene's lights, its environment's, and sky and ground as the light
+/// from the twelve corners of an icosahedron, each for a twelfth of the sphere.
+std::vector<vtkSmartPointer<vtkLight>> lights_of_surfaces(const VolumeScene& scene)
+{
+  std::vector<vtkSmartPointer<vtkLight>> lights;
+  vtkCollectionSimpleIterator it;
+  scene.lights->InitTraversal(it);
+  while (vtkLight* light = scene.lights->GetNextLight(it))
+  {
+    auto copy = vtkSmartPointer<vtkLight>::New();
+    copy->DeepCopy(light);
+    lights.push_back(copy);
+  }
+  if (!scene.sky)
+  {
+    return lights;
+  }
+  std::vector<Light> environment;
+  scene.sky->AppendEnvironmentLights(environment);
+  for (const Light& light : environment)
+  {
+    lights.push_back(light_along(light.direction, light.diffuse));
+  }
+  Sky sky;
+  scene.sky->FillSky(sky);
+  const glm::dvec3 side = std::abs(sky.up.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+  const glm::dvec3 x = glm::normalize(glm::cross(side, sky.up));
+  const glm::dvec3 y = glm::cross(sky.up, x);
+  for (int corner = 0; corner < 12; ++corner)
+  {
+    // One above, five in a ring, five in a ring below, one below.
+    const double height = corner == 0 ? 1.0 : corner == 11 ? -1.0 : corner < 6 ? std::sqrt(0.2) : -std::sqrt(0.2);
+    const double angle = pi * (0.4 * corner + (corner < 6 ? 0.0 : 0.2));
+    const double radius = std::sqrt(1.0 - height * height);
+    const glm::dvec3 from =
+      height * sky.up + radius * (std::cos(angle) * x + std::sin(angle) * y);
+    const glm::dvec3 radiance = height > 0.0 ? sky.radiance : sky.ground;
+    if (radiance != glm::dvec3(0.0))
+    {
+      lights.push_back(light_along(-from, radiance * (4.0 / 12.0))); // irradiance L 4π / 12, over π
+    }
+  }
+  return lights;
+}
+
+/// What a window shows of surfaces, in more than its frame's 8 bits: shading is linear in the lights,
+/// so that frames with brighter and dimmer lights are one picture with more steps and no ceiling.
+class ManyExposures
+{
+public:
+  ManyExposures(vtkRenderWindow* window, vtkRenderer* renderer, const VolumeScene& scene)
+    : Window(window)
+    , Lights(lights_of_surfaces(scene))
+  {
+    for (vtkLight* light : this->Lights)
+    {
+      this->Intensities.push_back(light->GetIntensity());
+      renderer->AddLight(light);
+    }
+  }
+
+  /// R, G, B a pixel; of pixels without a surface it means nothing.
+  std::vector<float> draw()
+  {
+    std::vector<float> rgb;
+    for (const double exposure : { 1.0 / 64.0, 1.0 / 8.0, 1.0, 8.0 }) // the brightest last
+    {
+      for (std::size_t i = 0; i < this->Lights.size(); ++i)
+      {
+        this->Lights[i]->SetIntensity(exposure * this->Intensities[i]);
+      }
+      this->Window->Render();
+      const int* size = this->Window->GetSize();
+      vtkNew<vtkUnsignedCharArray> bytes;
+      this->Window->GetPixelData(0, 0, size[0] - 1, size[1] - 1, 0, bytes);
+      rgb.resize(static_cast<std::size_t>(bytes->GetNumberOfValues()));
+      for (std::size_t i = 0; i < rgb.size(); ++i)
+      {
+        // Where this frame is not saturated it is finer than the ones before.
+        const int byte = bytes->GetValue(static_cast<vtkIdType>(i));
+        if (byte < 250 || exposure < 1.0 / 32.0)
+        {
+          rgb[i] = static_cast<float>(byte / 255.0 / exposure);
+        }
+      }
+    }
+    return rgb;
+  }
+
+private:
+  vtkRenderWindow* Window;
+  std::vector<vtkSmartPointer<vtkLight>> Lights;
+  std::vector<double> Intensities; ///< of the lights in the scene
+};
 
 }
 
@@ -166,15 +272,14 @@ SurfacePicture draw_meshes(const VolumeScene& scene)
   window->AddRenderer(renderer);
   for (vtkPolyData* mesh : scene.meshes)
   {
-    renderer->AddActor(actor_of(mesh, scene.options.medium));
+    renderer->AddActor(actor_of(mesh));
   }
   double background[3];
   std::copy(scene.options.background.begin(), scene.options.background.end(), background);
   renderer->SetBackground(background);
   renderer->AutomaticLightCreationOff();
-  renderer->SetLightCollection(scene.lights);
   renderer->SetActiveCamera(scene.camera);
-  window->Render();
+  picture.rgb = ManyExposures(window, renderer, scene).draw();
   if (!error.empty())
   {
     std::replace(error.begin(), error.end(), '\n', ' ');
@@ -182,19 +287,15 @@ SurfacePicture draw_meshes(const VolumeScene& scene)
   }
   const int right = scene.width() - 1;
   const int top = scene.height() - 1;
-  vtkNew<vtkUnsignedCharArray> bytes;
-  window->GetPixelData(0, 0, right, top, 0, bytes);
   picture.depth.resize(static_cast<std::size_t>(scene.width()) * scene.height());
   window->GetZbufferData(0, 0, right, top, picture.depth.data());
   for (std::size_t i = 0; i < picture.depth.size(); ++i)
   {
     const bool surface = picture.depth[i] < 1.0f;
     picture.depth[i] = 2.0f * picture.depth[i] - 1.0f; // [0, 1] to the clip cube's [-1, 1]
-    for (int c = 0; c < 3; ++c)
+    for (int c = 0; c < 3 && !surface; ++c)
     {
-      picture.rgb.push_back(surface
-          ? bytes->GetValue(static_cast<vtkIdType>(3 * i) + c) / 255.0f
-          : static_cast<float>(scene.options.background[c]));
+      picture.rgb[3 * i + c] = static_cast<float>(scene.options.background[c]);
     }
   }
   return picture;

@@ -24,9 +24,9 @@ struct SurfacePicture
   std::vector<float> depth; ///< as vtkBrumeVolumeMapper::SetSurfaceDepth takes it
 };
 
-/// Draws the scene's meshes with its lights (and, as ambient light, the mean of sky and ground), the
-/// camera's clipping range fitted to them and to the volume. Needs a display (private_display.h):
-/// throws Failure where there is none. The colours come from a frame of 8 bits.
+/// Draws the scene's meshes, diffuse, in the light of its lights, environment, sky and ground; the
+/// camera's clipping range must be fitted to them and to the volume (set_up). Needs a display (private_display.h):
+/// throws Failure where there is none. Volumes throw no shadows on surfaces, nor they on volumes.
 SurfacePicture draw_meshes(const VolumeScene& scene);
 
 }

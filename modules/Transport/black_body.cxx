@@ -53,7 +53,7 @@ std::array<Line, last_nanometre - first_nanometre + 1> make_lines()
     Line& line = lines[nanometres - first_nanometre];
     line.kelvin = planck * speed / (boltzmann * metres);
     line.weight = matching_functions(nanometres) *
-      (2.0 * planck * speed * speed / std::pow(metres, 5.0) * 1e-9);
+                  (2.0 * planck * speed * speed / std::pow(metres, 5.0) * 1e-9);
   }
   return lines;
 }
@@ -71,7 +71,15 @@ void check_reference(double reference)
 glm::dvec3 rgb(double temperature)
 {
   const glm::dmat3 from_xyz = glm::transpose(glm::dmat3( // IEC 61966-2-1
-    3.2406, -1.5372, -0.4986, -0.9689, 1.8758, 0.0415, 0.0557, -0.2040, 1.0570));
+    3.2406,
+    -1.5372,
+    -0.4986,
+    -0.9689,
+    1.8758,
+    0.0415,
+    0.0557,
+    -0.2040,
+    1.0570));
   return glm::max(from_xyz * black_body_xyz(temperature), 0.0);
 }
 
@@ -144,8 +152,10 @@ BlackBodyTable make_black_body_table(double hottest, double reference)
   {
     table.nodes.push_back(
       { static_cast<float>(node.x), static_cast<float>(node.y), static_cast<float>(node.z) });
-    table.brightest = std::max({ table.brightest, table.nodes.back().red,
-      table.nodes.back().green, table.nodes.back().blue });
+    table.brightest = std::max({ table.brightest,
+      table.nodes.back().red,
+      table.nodes.back().green,
+      table.nodes.back().blue });
   }
   return table;
 }

@@ -61,9 +61,14 @@ bool emits(const Volume& volume)
            : volume.meaning == ValueMeaning::Classified;
 }
 
+bool has_fog(const Scene& scene)
+{
+  return scene.fog.enabled && scene.fog.extinction != black;
+}
+
 bool fog_scatters(const Scene& scene)
 {
-  return scene.fog.enabled && scene.fog.extinction != black && scene.fog.albedo != black;
+  return has_fog(scene) && scene.fog.albedo != black;
 }
 
 bool has_sky(const Scene& scene)
@@ -179,7 +184,7 @@ std::string absence(Effect effect, const Scene& scene, const PlanFigures& figure
   switch (effect)
   {
     case Effect::Absorption:
-      return figures.visible_bricks > 0 ? "" : "no matter can be seen";
+      return figures.visible_bricks > 0 || has_fog(scene) ? "" : "no matter can be seen";
     case Effect::Emission:
       return any(scene, emits) ? "" : "no matter sends light by itself";
     case Effect::Scattering:
@@ -252,7 +257,7 @@ std::string absence(Effect effect, const Scene& scene, const PlanFigures& figure
                ? ""
                : "powder is not asked for";
     case Effect::Fog:
-      return scene.fog.enabled && scene.fog.extinction != black ? "" : "there is no fog";
+      return has_fog(scene) ? "" : "there is no fog";
     default:
       return "";
   }

@@ -65,6 +65,7 @@ EffectBounds::EffectBounds(const Scene& scene, const PlanFigures& figures)
   , Gain(scene.mixture == Mixture::Components ? static_cast<double>(scene.volumes.size()) : 1.0)
   , Channels(channel_ranges(scene))
   , Light(find_light(scene, figures, Channels))
+  , FogSeen(look_at_fog(scene))
 {
   for (std::size_t k = 0; k < scene.volumes.size(); ++k)
   {
@@ -370,6 +371,10 @@ glm::dvec3 EffectBounds::change_by_channels(std::size_t ray, const EffectSet& on
     }
     result[c] += on.has(Effect::Emission) ? emission : 0.0;
   }
+  if (on.has(Effect::Fog)) // on the way to the eye, and to matter
+  {
+    result += 2.0 * this->FogSeen.grey_dims * this->radiance(ray, on);
+  }
   return result;
 }
 
@@ -488,7 +493,8 @@ glm::dvec3 EffectBounds::change(Effect effect, std::size_t ray, const EffectSet&
       }
       return result;
     }
-    case Effect::Fog:
+    case Effect::Fog: // what it takes of the light to volumes and from them
+      return this->FogSeen.any ? this->FogSeen.takes * this->radiance(ray, on) : result;
     case Effect::SpaceLeaping:
       return result;
   }
@@ -497,16 +503,16 @@ glm::dvec3 EffectBounds::change(Effect effect, std::size_t ray, const EffectSet&
 
 double EffectBounds::of(Effect effect, const EffectSet& on) const
 {
-  double most = 0.0;
+  glm::dvec3 most(0.0);
   for (std::size_t ray = 0; ray < this->Figures.view.depth.size(); ++ray)
   {
     if (this->Figures.view.depth[ray] > 0.0 || this->Clear != glm::dvec3(0.0))
     {
-      const glm::dvec3 change = this->change(effect, ray, on);
-      most = std::max({ most, change.x, change.y, change.z });
+      most = max_of(most, this->change(effect, ray, on));
     }
   }
-  return most;
+  most += change_in_fog(effect, this->FogSeen, on);
+  return std::max({ most.x, most.y, most.z });
 }
 
 }

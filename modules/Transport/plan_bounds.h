@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Transport/effects.h"
+#include "Transport/plan_fog.h"
 #include "Transport/plan_light.h"
 #include "Transport/plan_probe.h"
 #include "Transport/scene.h"
@@ -47,6 +48,7 @@ private:
   double Gain = 1.0; ///< light of components adds up faster than they dim
   ChannelRanges Channels;
   PlanLight Light;
+  FogFigures FogSeen;
   std::vector<glm::dvec3> Emission;     ///< of each volume, by unit of its optical depth
   glm::dvec3 Clear{ 0.0 };              ///< emission of matter without extinction, along any ray
   double ShadowChange[3] = { 0, 0, 0 }; ///< by equal channels: of the transmittance toward lights

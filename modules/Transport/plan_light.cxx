@@ -2,6 +2,7 @@
 
 #include "Transport/phase.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
@@ -64,6 +65,9 @@ struct LightOnRay
   double largest_cosine = 1.0;
   /// The light's strength: ∫ T σt E ds along the ray is at most this times ∫ T σt ds.
   double strength = 0.0;
+  /// Of a lamp: its least and largest distance from places of the ray.
+  double nearest = 0.0;
+  double farthest = 0.0;
 };
 
 class Finder
@@ -86,7 +90,16 @@ public:
       }
       const glm::dmat4 world_from_index = volume.world_from_data * volume.data_from_index;
       this->IndexFromWorld.push_back(glm::inverse(world_from_index));
-      this->DataFromWorld.push_back(glm::inverse(glm::dmat3(volume.world_from_data)));
+      // No unit vector of the world is longer in the data than the largest of the squares allows.
+      const glm::dmat3 data_from_world = glm::inverse(glm::dmat3(volume.world_from_data));
+      const glm::dmat3 squares = glm::transpose(data_from_world) * data_from_world;
+      double longest = 0.0;
+      for (int column = 0; column < 3; ++column)
+      {
+        const glm::dvec3 v = glm::abs(squares[column]);
+        longest = std::max(longest, v.x + v.y + v.z);
+      }
+      this->Extinction += figures.matter[k].extinction * std::sqrt(longest);
     }
   }
 
@@ -161,7 +174,7 @@ private:
         LightOnRay here = shared;
         if (light.positional)
         {
-          here = this->lamp_on_ray(light, ray);
+          here = this->lamp_on_ray(l, ray);
           std::fill(sums.begin(), sums.end(), RaySource());
           this->add_phases(l, here, sums);
         }
@@ -174,7 +187,7 @@ private:
         }
         if (this->Shaded)
         {
-          const glm::dvec3 lost = this->lost(l, 1.0);
+          const glm::dvec3 lost = this->lost(l, here, 1.0);
           result.shadings[ray].diffuse.add(light.diffuse * here.strength, lost);
           result.shadings[ray].specular.add(light.specular * here.strength, lost);
         }
@@ -182,16 +195,52 @@ private:
     }
   }
 
-  /// What matter can take from light number l on its way, R, G, B.
-  glm::dvec3 lost(std::size_t l, double attenuation) const
+  /// The share of light number l that matter can take on its way to a ray, R, G, B: of `strength`.
+  glm::dvec3 lost(std::size_t l, const LightOnRay& here, double attenuation) const
   {
     glm::dvec3 result;
     for (int c = 0; c < 3; ++c)
     {
-      const double channel = std::max(this->Channels.of[c].upper, this->Channels.mean.upper);
-      result[c] = opacity(attenuation * channel * this->Figures.lights[l]);
+      const double channel =
+        attenuation * std::max(this->Channels.of[c].upper, this->Channels.mean.upper);
+      result[c] = opacity(channel * this->Figures.lights[l]);
+      if (this->TheScene.lights[l].positional && here.strength > 0.0)
+      {
+        result[c] = std::min(result[c], this->lost_near(l, here, channel) / here.strength);
+      }
     }
     return result;
+  }
+
+  /// Near a lamp, where it is brightest, there is little matter on the way: the largest of strength
+  /// times what is lost, by distance, each as large as anywhere in an interval.
+  double lost_near(std::size_t l, const LightOnRay& here, double channel) const
+  {
+    constexpr int intervals = 12;
+    const Light& light = this->TheScene.lights[l];
+    const double ratio =
+      here.nearest > 0.0 ? std::pow(here.farthest / here.nearest, 1.0 / intervals) : 0.0;
+    if (!(ratio > 1.0) || !std::isfinite(ratio))
+    {
+      return std::numeric_limits<double>::infinity();
+    }
+    double most = 0.0;
+    double distance = here.nearest;
+    for (int i = 0; i < intervals; ++i)
+    {
+      const double beyond = distance * ratio;
+      const double depth = std::min(this->Figures.lights[l],
+        this->Extinction * std::max(0.0, beyond - this->Figures.clearance[l]));
+      most = std::max(most, strength_at(light, distance) * opacity(channel * depth));
+      distance = beyond;
+    }
+    return most;
+  }
+
+  static double strength_at(const Light& light, double distance)
+  {
+    const glm::dvec3& a = light.attenuation;
+    return 1.0 / std::max(a.x + a.y * distance + a.z * distance * distance, 1e-12);
   }
 
   /// To each volume's sums.
@@ -205,7 +254,7 @@ private:
         const Octave& octave = this->Octaves[k][m];
         const glm::dvec3 light = irradiance * octave.contribution;
         const int part = m > 0;
-        const glm::dvec3 lost = this->lost(l, octave.attenuation);
+        const glm::dvec3 lost = this->lost(l, here, octave.attenuation);
         sums[k].even[part].add(light * even_phase, lost);
         double most = octave.phase.isotropic;
         double deviation = std::abs(most - even_phase);
@@ -221,7 +270,7 @@ private:
       {
         sums[k].lining.add(
           irradiance * largest_phase(this->Linings[k], here.least_cosine, here.largest_cosine),
-          this->lost(l, 1.0));
+          this->lost(l, here, 1.0));
       }
     }
   }
@@ -238,8 +287,9 @@ private:
     result.least_cosine = std::cos(std::min(pi, std::max(a, b) + margin));
   }
 
-  LightOnRay lamp_on_ray(const Light& light, std::size_t ray) const
+  LightOnRay lamp_on_ray(std::size_t l, std::size_t ray) const
   {
+    const Light& light = this->TheScene.lights[l];
     LightOnRay result;
     double from = 0.0;
     double to = 0.0;
@@ -258,7 +308,8 @@ private:
     const double width = view.width + view.angle * to;
     const double aside = std::max(0.0, glm::length(offset - direction * middle) - width);
     const double beyond = std::max({ begin, -end, 0.0 });
-    const double nearest = std::sqrt(aside * aside + beyond * beyond);
+    const double clear = this->Figures.clearance[l];
+    const double nearest = std::max(clear, std::sqrt(aside * aside + beyond * beyond));
     const auto travel = [&](double s)
     {
       const glm::dvec3 way = direction * (s + middle) - offset;
@@ -269,13 +320,22 @@ private:
     range(this->angle(travel(begin), ray), this->angle(travel(end), ray), turn, result);
 
     const glm::dvec3& a = light.attenuation;
-    result.strength = 1.0 / std::max(a.x + a.y * nearest + a.z * nearest * nearest, 1e-12);
+    result.strength = strength_at(light, nearest);
+    // In intervals of distance, the first as short as to make no difference.
+    result.nearest = std::max(nearest, 1e-4 * (width + clear));
+    const double out = std::max(std::abs(begin), std::abs(end));
+    result.farthest = std::sqrt(out * out + std::pow(aside + 2.0 * width, 2.0));
     if (a.z > 0.0)
     {
       // The largest extinction times ∫ ds / (a + c (aside² + s²)) is a bound of its own.
       const double least = 1e-6 * view.edge_of_voxel;
       const double r = std::sqrt(std::max(aside * aside + a.x / a.z, least * least));
-      const double integral = (std::atan(end / r) - std::atan(begin / r)) / (a.z * r);
+      double integral = (std::atan(end / r) - std::atan(begin / r)) / (a.z * r);
+      if (clear > 0.0) // there d² ≥ (clear² + s²) / 2
+      {
+        integral = std::min(
+          integral, 2.0 * (std::atan(end / clear) - std::atan(begin / clear)) / (a.z * clear));
+      }
       double least_channel = this->Channels.mean.lower;
       double largest_channel = this->Channels.mean.upper;
       for (const ChannelRanges::Range& channel : this->Channels.of)
@@ -283,17 +343,11 @@ private:
         least_channel = std::min(least_channel, channel.lower);
         largest_channel = std::max(largest_channel, channel.upper);
       }
-      double extinction = 0.0;
-      for (std::size_t k = 0; k < this->DataFromWorld.size(); ++k)
-      {
-        extinction +=
-          this->Figures.matter[k].extinction * glm::length(this->DataFromWorld[k] * direction);
-      }
       const double weight = opacity(least_channel * view.depth[ray]);
       if (weight > 0.0)
       {
         result.strength =
-          std::min(result.strength, largest_channel * extinction * integral / weight);
+          std::min(result.strength, largest_channel * this->Extinction * integral / weight);
       }
     }
     return result;
@@ -342,7 +396,7 @@ private:
   std::vector<std::vector<Octave>> Octaves; ///< none for a volume that is not lit
   std::vector<PhaseModel> Linings;
   std::vector<glm::dmat4> IndexFromWorld;
-  std::vector<glm::dmat3> DataFromWorld;
+  double Extinction = 0.0; ///< the largest, of a channel of 1, per unit of the world
   bool Shaded = false;
 };
 

@@ -4,6 +4,7 @@
 #include "Transport/step_control.h"
 #include "Transport/zoom.h"
 
+#include <glm/common.hpp>
 #include <glm/ext/matrix_clip_space.hpp>
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 namespace brume
 {
@@ -247,30 +249,74 @@ void PlanProbe::look_at_values(const Scene& scene, int threads)
   for (std::size_t k = 0; k < scene.volumes.size(); ++k)
   {
     const Volume& volume = scene.volumes[k];
-    const auto range = [&](const Grid& grid, const BrickRanges* ranges, Values& kept)
+    const auto measure =
+      [&](const Grid& grid, const std::shared_ptr<const BrickRanges>& ranges, Values& kept)
     {
+      const void* voxels = grid.sparse ? static_cast<const void*>(grid.sparse) : grid.voxels;
       PlanKey key;
       key.add(volume.data_revision);
-      key.add(static_cast<std::uint64_t>(reinterpret_cast<std::uintptr_t>(grid.voxels)));
-      if (volume.data_revision != 0 && key == kept.key)
+      key.add(static_cast<std::uint64_t>(reinterpret_cast<std::uintptr_t>(voxels)));
+      if (volume.data_revision == 0 || !(key == kept.key))
       {
-        return;
+        kept.ranges =
+          ranges ? ranges : std::make_shared<BrickRanges>(measure_bricks(grid, threads));
+        kept.key = key;
       }
-      const BrickRanges measured = ranges ? BrickRanges() : measure_bricks(grid, threads);
-      const BrickRanges& all = ranges ? *ranges : measured;
-      kept = { key, all.lower, all.upper, all.non_finite_voxels > 0 };
+      return kept.ranges;
     };
-    Values& values = this->KeptValues[k];
-    range(volume.grid, volume.ranges.get(), values);
-    MatterFigures figures = figures_of(volume, values.lower, values.upper, values.gaps);
+    const auto values = measure(volume.grid, volume.ranges, this->KeptValues[k]);
+    MatterFigures figures =
+      figures_of(volume, values->lower, values->upper, values->non_finite_voxels > 0);
     if (volume.medium.lit && volume.medium.black_body > 0.0 && volume.medium.temperature.voxels)
     {
-      Values& kelvin = this->KeptTemperatures[k];
-      range(volume.medium.temperature, nullptr, kelvin);
-      figures.kelvin = std::max(0.0, kelvin.upper) * volume.medium.temperature_scale;
+      const auto kelvin = measure(volume.medium.temperature, nullptr, this->KeptTemperatures[k]);
+      figures.kelvin = std::max(0.0, double(kelvin->upper)) * volume.medium.temperature_scale;
     }
     this->Figures.matter.push_back(figures);
   }
+}
+
+double PlanProbe::clearance(const Scene& scene, const glm::dvec3& place) const
+{
+  double square = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < scene.volumes.size(); ++k)
+  {
+    const Volume& volume = scene.volumes[k];
+    const glm::dmat4 world_from_index = volume.world_from_data * volume.data_from_index;
+    glm::dvec3 edges;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const glm::dvec3 side(world_from_index[axis]);
+      const glm::dvec3 next(world_from_index[(axis + 1) % 3]);
+      edges[axis] = glm::length(side);
+      if (volume.meaning != ValueMeaning::Density ||
+          std::abs(glm::dot(side, next)) > 1e-9 * glm::length(side) * glm::length(next))
+      {
+        return 0.0; // not looked into: what is visible, or how far it is, is not as simple
+      }
+    }
+    const glm::dvec3 here(glm::inverse(world_from_index) * glm::dvec4(place, 1.0));
+    const BrickRanges& ranges = *this->KeptValues[k].ranges;
+    const double edge = ranges.edge();
+    std::size_t index = 0;
+    for (int z = 0; z < ranges.dims[2]; ++z)
+    {
+      for (int y = 0; y < ranges.dims[1]; ++y)
+      {
+        for (int x = 0; x < ranges.dims[0]; ++x, ++index)
+        {
+          if (ranges.maximum[index] > 0.0f)
+          {
+            // The outermost bricks also hold what lies beyond the voxels' centres.
+            const glm::dvec3 lower = glm::dvec3(x, y, z) * edge - 1.0;
+            const glm::dvec3 way = glm::clamp(here, lower, lower + edge + 2.0) - here;
+            square = std::min(square, glm::dot(way * edges, way * edges));
+          }
+        }
+      }
+    }
+  }
+  return std::sqrt(square);
 }
 
 std::vector<double> PlanProbe::depths(Marcher& marcher,
@@ -307,6 +353,7 @@ void PlanProbe::look_at_lights(Marcher& marcher, int threads)
   const Sphere sphere = around_volumes(scene);
   const std::vector<Light> lights = scene.lights;
   this->Figures.lights.clear();
+  this->Figures.clearance.clear();
   for (std::size_t l = 0; l <= lights.size(); ++l)
   {
     const bool vertical = l == lights.size();
@@ -322,6 +369,7 @@ void PlanProbe::look_at_lights(Marcher& marcher, int threads)
     if (!(key == kept.key) && wanted)
     {
       kept.deepest = 0.0;
+      kept.clearance = positional ? this->clearance(scene, lights[l].position) : 0.0;
       const std::vector<glm::dmat4> views =
         positional ? views_from(scene, lights[l].position)
                    : std::vector<glm::dmat4>{ parallel_view(scene, axis) };
@@ -347,6 +395,7 @@ void PlanProbe::look_at_lights(Marcher& marcher, int threads)
     else
     {
       this->Figures.lights.push_back(kept.deepest);
+      this->Figures.clearance.push_back(kept.clearance);
     }
   }
 }
@@ -487,6 +536,7 @@ const PlanFigures& PlanProbe::look(Marcher& marcher, const Scene& scene, int thr
   else
   {
     this->Figures.lights.assign(scene.lights.size(), 0.0);
+    this->Figures.clearance.assign(scene.lights.size(), 0.0);
     this->Figures.vertical = 0.0;
   }
   return this->Figures;

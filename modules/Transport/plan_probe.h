@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace brume
@@ -62,7 +63,9 @@ struct PlanFigures
   std::size_t visible_bricks = 0;
   ViewFigures view;
   std::vector<double> lights; ///< the largest optical depth toward each light, of a channel of 1
-  double vertical = 0.0;      ///< the largest along Sky::up
+  /// The least distance of each light's place from matter, in the world.
+  std::vector<double> clearance;
+  double vertical = 0.0; ///< the largest along Sky::up
 };
 
 /// Looks at scenes and keeps what it saw for as long as it holds: the ranges of values while
@@ -87,17 +90,19 @@ private:
     double spacing,
     int threads);
 
+  /// The distance in the world from a place to the nearest matter, at the least.
+  double clearance(const Scene& scene, const glm::dvec3& place) const;
+
   struct Values
   {
     PlanKey key;
-    double lower = 0.0;
-    double upper = 0.0;
-    bool gaps = false; ///< some voxels are not finite
+    std::shared_ptr<const BrickRanges> ranges;
   };
   struct Depth
   {
     PlanKey key;
     double deepest = 0.0;
+    double clearance = 0.0;
   };
 
   std::vector<Values> KeptValues;

@@ -116,7 +116,7 @@ struct ReferenceLighting::Body
 {
   const ReferenceMedium* matter;
   std::vector<PhaseModel> octaves;
-  ShadeModel unlit;               ///< without a light
+  ShadeModel unlit;                ///< without a light
   std::vector<ShadeModel> by_lamp; ///< with one light each, and no ambient light
   std::unique_ptr<ReferenceGrid> temperature;
   glm::dvec4 height{ 0.0 }; ///< h = height · (world place, 1)
@@ -257,9 +257,9 @@ glm::dvec3 ReferenceLighting::Body::scattered(const FoundMatter& found, const Ar
   {
     for (const Arriving::Beam& beam : light.beams)
     {
-      sum += beam.irradiance * glm::exp(-attenuation * beam.depth) *
-             (contribution *
-               scalar::phase<double>(model, beam.one_minus_cosine, beam.one_plus_cosine));
+      sum +=
+        beam.irradiance * glm::exp(-attenuation * beam.depth) *
+        (contribution * scalar::phase<double>(model, beam.one_minus_cosine, beam.one_plus_cosine));
     }
     contribution *= octaves.contribution;
     attenuation *= octaves.attenuation;
@@ -267,8 +267,8 @@ glm::dvec3 ReferenceLighting::Body::scattered(const FoundMatter& found, const Ar
   return this->medium().albedo * found.colour * sum * this->powder(found, light.world);
 }
 
-/// As scattered(), where shading takes the place of the phase function: matter of the albedo's colour,
-/// and powder leaves it alone.
+/// As scattered(), where shading takes the place of the phase function: matter of the albedo's
+/// colour, and powder leaves it alone.
 glm::dvec3 ReferenceLighting::Body::shaded(const FoundMatter& found, const Arriving& light) const
 {
   using scalar::Vec3;
@@ -334,10 +334,8 @@ ReferenceLighting::Arriving ReferenceLighting::arriving(const PixelRay& ray,
     beam.one_plus_cosine = 0.5 * glm::dot(more, more);
     if (strength > 0.0)
     {
-      beam.depth = this->optical_depth(result.world,
-        lamp.light->positional ? -beam.offset : -travel * outside,
-        pieces,
-        samples);
+      beam.depth = this->optical_depth(
+        result.world, lamp.light->positional ? -beam.offset : -travel * outside, pieces, samples);
     }
     result.beams.push_back(beam);
   }

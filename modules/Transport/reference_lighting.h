@@ -40,8 +40,9 @@ public:
   /// The scene's fog; null for none.
   const FogModel* fog() const { return this->Fog.get(); }
 
-  /// What the volumes of these numbers and the fog send together at s. `pieces`: how fine shadow rays are through
-  /// classified matter; through densities they are exact. Adds the places looked at to `samples`.
+  /// What the volumes of these numbers and the fog send together at s. `pieces`: how fine shadow
+  /// rays are through classified matter; through densities they are exact. Adds the places looked at
+  /// to `samples`.
   Sent sent(const PixelRay& ray,
     const int* volumes,
     std::size_t count,
@@ -49,8 +50,9 @@ public:
     int pieces,
     std::uint64_t& samples) const;
 
-  /// Optical depth of all volumes between two places of the world: two Gauss–Legendre points in each
-  /// voxel cell times `pieces`, and more of them where transfer functions go up and down in it.
+  /// Optical depth of all volumes between two places of the world: two Gauss–Legendre points in
+  /// each voxel cell times `pieces`, and more of them where transfer functions go up and down in
+  /// it.
   glm::dvec3 optical_depth(const glm::dvec3& from,
     const glm::dvec3& along,
     int pieces,

@@ -11,8 +11,8 @@ namespace
 {
 
 /// The three-stage Gauss–Legendre rule on [0, 1]: the points, and for each the weights of the three
-/// values for the integral from 0 to it and, last, to 1 (E. Hairer, S. P. Nørsett, G. Wanner, Solving
-/// Ordinary Differential Equations I, 1993, II.7).
+/// values for the integral from 0 to it and, last, to 1 (E. Hairer, S. P. Nørsett, G. Wanner,
+/// Solving Ordinary Differential Equations I, 1993, II.7).
 constexpr double root_15 = 3.87298334620741688518;
 constexpr double gauss_points[3] = { 0.5 - root_15 / 10.0, 0.5, 0.5 + root_15 / 10.0 };
 constexpr double gauss_weights[4][3] = {

@@ -1,5 +1,5 @@
-// A ball of voxels under a sun: the trilinear field that the voxels are, integrated cell by cell with
-// Boost's quadratures, and the ball that they stand for, within what voxels can do.
+// A ball of voxels under a sun: the trilinear field that the voxels are, integrated cell by cell
+// with Boost's quadratures, and the ball that they stand for, within what voxels can do.
 #include "../support/lit_scenes.h"
 
 #include <boost/math/quadrature/gauss.hpp>
@@ -23,7 +23,9 @@ struct Ball
   Ball(int size, double the_radius, double extinction)
     : n(size)
     , radius(the_radius)
-    , voxels(size, size, size,
+    , voxels(size,
+        size,
+        size,
         [=](int i, int j, int k)
         {
           const glm::dvec3 p = glm::dvec3(i, j, k) - 0.5 * (size - 1);
@@ -73,8 +75,10 @@ struct Ball
   }
 
   /// Where a line crosses the planes between cells, from `from` to `to`; p + t d.
-  std::vector<double> crossings(
-    const glm::dvec3& p, const glm::dvec3& d, double from, double to) const
+  std::vector<double> crossings(const glm::dvec3& p,
+    const glm::dvec3& d,
+    double from,
+    double to) const
   {
     std::vector<double> cuts{ from, to };
     for (int axis = 0; axis < 3; ++axis)
@@ -116,8 +120,7 @@ struct Ball
     const glm::dvec3 to_sun = -scene.lights[0].direction;
     const double reach = 2.0 * n;
     const double middle = -glm::dot(ray.begin, ray.direction);
-    const std::vector<double> cuts =
-      crossings(ray.begin, ray.direction, middle - n, middle + n);
+    const std::vector<double> cuts = crossings(ray.begin, ray.direction, middle - n, middle + n);
     double sum = 0.0;
     double before = 0.0;
     for (std::size_t i = 1; i < cuts.size(); ++i)
@@ -127,8 +130,8 @@ struct Ball
         const glm::dvec3 place = ray.begin + t * ray.direction;
         const double here = value(place);
         return here > 0.0 ? sigma() * here *
-            std::exp(-before - depth(ray.begin, ray.direction, cuts[i - 1], t) -
-              depth(place, to_sun, 0.0, reach))
+                              std::exp(-before - depth(ray.begin, ray.direction, cuts[i - 1], t) -
+                                       depth(place, to_sun, 0.0, reach))
                           : 0.0;
       };
       const double half = 0.5 * (cuts[i - 1] + cuts[i]);
@@ -155,16 +158,16 @@ struct Ball
     {
       return 0.0;
     }
-    return scatters(ray.direction) *
-      integral(
-        [&](double t)
-        {
-          const glm::dvec3 place = ray.begin + t * ray.direction;
-          double unused, out;
-          chord(place, -scene.lights[0].direction, unused, out);
-          return sigma() * std::exp(-sigma() * (t - from + out));
-        },
-        from, to);
+    return scatters(ray.direction) * integral(
+                                       [&](double t)
+                                       {
+                                         const glm::dvec3 place = ray.begin + t * ray.direction;
+                                         double unused, out;
+                                         chord(place, -scene.lights[0].direction, unused, out);
+                                         return sigma() * std::exp(-sigma() * (t - from + out));
+                                       },
+                                       from,
+                                       to);
   }
 };
 
@@ -172,7 +175,8 @@ constexpr int edge = 12;
 
 double worst_against_field(const Draw& draw, const Ball& ball, double least_white = 1e-30)
 {
-  return worst_error(draw(ball.scene, edge, edge),
+  return worst_error(
+    draw(ball.scene, edge, edge),
     [&](int x, int y)
     {
       const WorldRay ray = world_ray(ball.view, x, y, edge, edge);
@@ -195,8 +199,8 @@ TEST(LitBall, ReferenceIsTheIntegralOfTheVoxels)
 TEST(LitBall, Marched)
 {
   const Ball ball(14, 5.2, 0.5);
-  const auto look =
-    [&](const char* name, const Draw& draw, double bound, double least_white = 1e-30)
+  const auto look = [&](
+                      const char* name, const Draw& draw, double bound, double least_white = 1e-30)
   {
     const double error = worst_against_field(draw, ball, least_white);
     EXPECT_LE(error, bound) << name;

@@ -30,10 +30,10 @@ template <class Send>
 double slab_radiance(double depth, const glm::dvec3& direction, const Send& send)
 {
   const double mu = std::abs(direction.z);
-  return integral(
-    [&](double z)
+  return integral([&](double z)
     { return send(z) * std::exp(-depth * (direction.z < 0.0 ? 1.0 - z : z) / mu) / mu; },
-    0.0, 1.0);
+    0.0,
+    1.0);
 }
 
 /// The largest error of the slab's pictures from above and from below, against send(z, channel,
@@ -56,8 +56,8 @@ double worst_of(const Draw& draw, Slab& slab, const glm::dvec3& depth, const Sen
           for (int c = 0; c < 3; ++c)
           {
             truth.transmittance[c] = std::exp(-depth[c] / std::abs(direction.z));
-            truth.radiance[c] = slab_radiance(
-              depth[c], direction, [&](double z) { return send(z, c, direction); });
+            truth.radiance[c] =
+              slab_radiance(depth[c], direction, [&](double z) { return send(z, c, direction); });
           }
           return truth;
         }));
@@ -134,7 +134,7 @@ TEST(LitMedia, SkyAndGround)
       [&](double z, int c, const glm::dvec3&)
       {
         return slab.medium().albedo[c] * depths[c] * 0.5 *
-          (above[c] * e2(depths[c] * (1.0 - z)) + below[c] * e2(depths[c] * z));
+               (above[c] * e2(depths[c] * (1.0 - z)) + below[c] * e2(depths[c] * z));
       },
       { 1e-6, 0.0, 0.08, 0.0 });
   }
@@ -157,17 +157,18 @@ TEST(LitMedia, Octaves)
   slab.add_sun(sun_zenith, 40.0, sun_diffuse);
   slab.medium().albedo = { 1.0, 0.8, 0.9 };
   slab.medium().lobes = { { PhaseFunction::HenyeyGreenstein, 3.0, 0.8 },
-    { PhaseFunction::HenyeyGreenstein, 1.0, -0.4 }, { PhaseFunction::Rayleigh, 1.0, 0.0 } };
+    { PhaseFunction::HenyeyGreenstein, 1.0, -0.4 },
+    { PhaseFunction::Rayleigh, 1.0, 0.0 } };
   slab.medium().octaves = { 5, 0.6, 0.45, 0.7 };
   expect_close(slab,
-      depths,
+    depths,
     [&](double z, int c, const glm::dvec3& direction)
     {
       double sum = 0.0;
       for (int m = 0; m < 5; ++m)
       {
         sum += std::pow(0.45, m) * sun_irradiance(std::pow(0.6, m) * depths[c], z, c) *
-          phase(slab.medium(), cosine(slab, direction), std::pow(0.7, m));
+               phase(slab.medium(), cosine(slab, direction), std::pow(0.7, m));
       }
       return slab.medium().albedo[c] * depths[c] * sum;
     },
@@ -187,9 +188,8 @@ TEST(LitMedia, SilverLining)
       const double mu = cosine(slab, direction);
       const double lining =
         0.7 * (0.75 * henyey_greenstein(0.85, mu) + 0.25 * henyey_greenstein(-0.85, mu));
-      return depths[c] *
-        (sun_irradiance(depths[c], z, c) * (0.25 / pi + lining) +
-          0.5 * sun_irradiance(0.5 * depths[c], z, c) * 0.25 / pi);
+      return depths[c] * (sun_irradiance(depths[c], z, c) * (0.25 / pi + lining) +
+                           0.5 * sun_irradiance(0.5 * depths[c], z, c) * 0.25 / pi);
     },
     { 1e-6, 1e-5, 0.015, 0.05 });
 }
@@ -211,12 +211,12 @@ TEST(LitMedia, Powder)
       [&](double z, int c, const glm::dvec3&)
       {
         const double factor = form == Powder::Form::Exponential
-          ? 1.0 - 0.8 * std::exp(-2.0 * d)
-          : 1.0 - 0.8 * std::pow(d, remap(z, 0.3, 0.9, 0.5, 1.0)) *
-              std::pow(remap(z, 0.0, 0.3, 0.8, 1.0), 0.8);
+                                ? 1.0 - 0.8 * std::exp(-2.0 * d)
+                                : 1.0 - 0.8 * std::pow(d, remap(z, 0.3, 0.9, 0.5, 1.0)) *
+                                          std::pow(remap(z, 0.0, 0.3, 0.8, 1.0), 0.8);
         return 0.15 +
-          factor * depths[c] *
-          (0.25 / pi * sun_irradiance(depths[c], z, c) + 0.5 * e2(depths[c] * (1.0 - z)));
+               factor * depths[c] *
+                 (0.25 / pi * sun_irradiance(depths[c], z, c) + 0.5 * e2(depths[c] * (1.0 - z)));
       },
       { form == Powder::Form::Exponential ? 1e-6 : 1e-5, 0.0, 0.04, 0.0 }); // kinks at 0.3 and 0.9
   }
@@ -272,8 +272,11 @@ struct ClassifiedSlab : Slab
     volume.grid = ramp.grid();
     volume.meaning = ValueMeaning::Classified;
     volume.classification = classify(
-      0.0, 1.0, [](double) { return -std::expm1(-sigma * 0.1); },
-      [](double v) { return colour(v); }, 5);
+      0.0,
+      1.0,
+      [](double) { return -std::expm1(-sigma * 0.1); },
+      [](double v) { return colour(v); },
+      5);
     volume.classification.unit_distance = 0.1;
   }
 };
@@ -296,8 +299,8 @@ TEST(LitMedia, ClassifiedMatterHasItsColourForAlbedo)
     [&](double z, int c, const glm::dvec3&)
     {
       return w * sigma * ClassifiedSlab::colour(z)[c] *
-        (slab.medium().albedo[c] * factor * 0.25 / pi * sun_irradiance(w * sigma, z, c) +
-          slab.medium().emission[c]);
+             (slab.medium().albedo[c] * factor * 0.25 / pi * sun_irradiance(w * sigma, z, c) +
+               slab.medium().emission[c]);
     },
     { 1e-6, 2e-4, 3e-3, 5e-3 });
 }
@@ -324,15 +327,14 @@ TEST(LitMedia, ShadedMatterIsShadowed)
       const double facing = glm::dot(normal, to_light);
       const double colour = slab.medium().albedo[c] * ClassifiedSlab::colour(z)[c];
       const double passes = std::exp(-sigma * (1.0 - z) / mu0);
-      double source = colour *
-        (shading.ambient * shading.ambient_light[c] +
-          0.5 * slab.scene.sky.radiance[c] * e2(sigma * (1.0 - z)));
+      double source = colour * (shading.ambient * shading.ambient_light[c] +
+                                 0.5 * slab.scene.sky.radiance[c] * e2(sigma * (1.0 - z)));
       if (facing > 0.0)
       {
-        source += passes *
-          (colour * shading.diffuse * sun_diffuse[c] * facing +
-            shading.specular * slab.scene.lights[0].specular[c] *
-              std::pow(std::max(glm::dot(normal, half), 0.0), shading.specular_power));
+        source +=
+          passes * (colour * shading.diffuse * sun_diffuse[c] * facing +
+                     shading.specular * slab.scene.lights[0].specular[c] *
+                       std::pow(std::max(glm::dot(normal, half), 0.0), shading.specular_power));
       }
       return sigma * source;
     },
@@ -356,15 +358,14 @@ TEST(LitMedia, Mixtures)
     slab.scene.volumes.push_back(other);
     const bool sum_up = mixture == Mixture::Sum;
     const glm::dvec3 sum = first + second;
-    const glm::dvec3 depth =
-      sum_up ? sum : (first * first + second * second) / sum;
+    const glm::dvec3 depth = sum_up ? sum : (first * first + second * second) / sum;
     expect_close(slab,
       depth,
       [&](double z, int c, const glm::dvec3& direction)
       {
         return sun_irradiance(depth[c], z, c) *
-          (slab.medium().albedo[c] * first[c] * 0.25 / pi +
-            second[c] * henyey_greenstein(0.5, cosine(slab, direction)));
+               (slab.medium().albedo[c] * first[c] * 0.25 / pi +
+                 second[c] * henyey_greenstein(0.5, cosine(slab, direction)));
       },
       { 1e-6, sum_up ? 1e-5 : 0.0, sum_up ? 0.015 : 0.0, 0.0 });
   }
@@ -406,11 +407,12 @@ TEST(LitMedia, PlacesAreTheDatasAndAnglesTheWorlds)
     for (int c = 0; c < 3; ++c)
     {
       truth.transmittance[c] = std::exp(-depths[c] / std::abs(in_data.z));
-      truth.radiance[c] = slab_radiance(depths[c], in_data,
+      truth.radiance[c] = slab_radiance(depths[c],
+        in_data,
         [&](double z)
         {
-          return depths[c] * henyey_greenstein(0.6, cosine(slab, direction)) * pi *
-            sun_diffuse[c] * std::exp(-depths[c] * (1.0 - z) / std::abs(sun.z));
+          return depths[c] * henyey_greenstein(0.6, cosine(slab, direction)) * pi * sun_diffuse[c] *
+                 std::exp(-depths[c] * (1.0 - z) / std::abs(sun.z));
         });
     }
     return truth;
@@ -420,8 +422,8 @@ TEST(LitMedia, PlacesAreTheDatasAndAnglesTheWorlds)
   EXPECT_LE(worst_error(by_volume(slab.scene, edge, edge), truth_of), 0.05);
 }
 
-// What is not drawn casts no shadow: cropping, a clipping plane and a mask that hide the slab's upper
-// part.
+// What is not drawn casts no shadow: cropping, a clipping plane and a mask that hide the slab's
+// upper part.
 TEST(LitMedia, HiddenPartsCastNoShadow)
 {
   std::vector<std::uint8_t> labels;
@@ -455,7 +457,7 @@ TEST(LitMedia, HiddenPartsCastNoShadow)
       [&](double z, int c, const glm::dvec3&)
       {
         return 0.625 * sigma * ClassifiedSlab::colour(0.625 * z)[c] * 0.25 / pi *
-          sun_irradiance(0.625 * sigma, z, c);
+               sun_irradiance(0.625 * sigma, z, c);
       },
       { 1e-6, way == "mask" ? 0.07 : 1e-3, 0.0, 0.0 });
   }

@@ -58,8 +58,8 @@ double strength(const Light& light, const glm::dvec3& place)
   if (light.cone_angle < 90.0)
   {
     const double cosine = glm::dot(away, light.direction) / d;
-    result *= cosine < std::cos(light.cone_angle * pi / 180.0) ? 0.0
-                                                               : std::pow(cosine, light.exponent);
+    result *=
+      cosine < std::cos(light.cone_angle * pi / 180.0) ? 0.0 : std::pow(cosine, light.exponent);
   }
   return pi * result;
 }
@@ -90,7 +90,7 @@ Truth truth_of(const Box& box, const WorldRay& ray)
       inside(place, to_light / distance, enters, leaves);
       const double p = phase(medium, glm::dot(to_light / distance, ray.direction));
       return medium.albedo[c] * sigma[c] * light.diffuse[c] * strength(light, place) * p *
-        std::exp(-sigma[c] * (t - from + std::min(distance, leaves)));
+             std::exp(-sigma[c] * (t - from + std::min(distance, leaves)));
     };
     // t = foot + away · tan φ takes 1/r² away; the foot is a kink where the ray runs through the
     // light. A cone's ends are found by looking.
@@ -131,9 +131,10 @@ Truth truth_of(const Box& box, const WorldRay& ray)
     }
     for (std::size_t i = 1; i < cuts.size(); ++i)
     {
-      truth.radiance[c] += integral(
-        [&](double phi) { return sends(angle(phi)) * away / std::pow(std::cos(phi), 2.0); },
-        cuts[i - 1], cuts[i]);
+      truth.radiance[c] += integral([&](double phi)
+        { return sends(angle(phi)) * away / std::pow(std::cos(phi), 2.0); },
+        cuts[i - 1],
+        cuts[i]);
     }
   }
   return truth;
@@ -179,8 +180,8 @@ TEST(PointLights, InTheMedium)
   }
 }
 
-// A ray as near to the lamp as a millionth of the box, and one right through it where the attenuation
-// bounds it.
+// A ray as near to the lamp as a millionth of the box, and one right through it where the
+// attenuation bounds it.
 TEST(PointLights, RaysThroughTheLight)
 {
   Box box;
@@ -211,8 +212,8 @@ TEST(PointLights, Cones)
     light.exponent = 4.0;
     box.scene.lights = { light };
     const Film film = reference(box.scene, edge, edge);
-    const double error = worst_error(film,
-      [&](int x, int y) { return truth_of(box, world_ray(box.view, x, y, edge, edge)); });
+    const double error = worst_error(
+      film, [&](int x, int y) { return truth_of(box, world_ray(box.view, x, y, edge, edge)); });
     // Attenuation and cone are kept in single precision.
     EXPECT_LE(error, 1e-5);
   }

@@ -1,5 +1,6 @@
 // Single scattering of a sun in a homogeneous slab against Chandrasekhar's closed forms (Radiative
-// Transfer, 1960, section 7): reflected and transmitted, at many angles of sun and view, per channel.
+// Transfer, 1960, section 7): reflected and transmitted, at many angles of sun and view, per
+// channel.
 #include "../support/lit_scenes.h"
 
 #include <iostream>
@@ -39,13 +40,20 @@ struct Case
 
 const std::vector<Case> cases = {
   { "thin, isotropic", glm::dvec3(0.05), glm::dvec3(1.0), {} },
-  { "coloured, forward", { 0.3, 1.0, 2.5 }, { 0.9, 0.5, 1.0 },
+  { "coloured, forward",
+    { 0.3, 1.0, 2.5 },
+    { 0.9, 0.5, 1.0 },
     { { PhaseFunction::HenyeyGreenstein, 1.0, 0.7 } } },
-  { "thick, backward", glm::dvec3(12.0), { 1.0, 0.99, 0.2 },
+  { "thick, backward",
+    glm::dvec3(12.0),
+    { 1.0, 0.99, 0.2 },
     { { PhaseFunction::HenyeyGreenstein, 1.0, -0.5 } } },
   { "air", { 0.05, 0.12, 0.3 }, glm::dvec3(1.0), { { PhaseFunction::Rayleigh, 1.0, 0.0 } } },
-  { "Schlick and a mixture", { 1.0, 1.0, 0.5 }, glm::dvec3(0.8),
-    { { PhaseFunction::Schlick, 2.0, 0.6 }, { PhaseFunction::HenyeyGreenstein, 1.0, -0.3 },
+  { "Schlick and a mixture",
+    { 1.0, 1.0, 0.5 },
+    glm::dvec3(0.8),
+    { { PhaseFunction::Schlick, 2.0, 0.6 },
+      { PhaseFunction::HenyeyGreenstein, 1.0, -0.3 },
       { PhaseFunction::Isotropic, 0.5, 0.0 } } },
 };
 
@@ -54,8 +62,7 @@ Truth truth_of(const Slab& slab, const Case& c, const View& view, int x, int y)
 {
   const Light& sun = slab.scene.lights[0];
   const glm::dvec3 direction = world_ray(view, x, y, edge, edge).direction;
-  const double p =
-    phase(slab.scene.volumes[0].medium, -glm::dot(sun.direction, direction));
+  const double p = phase(slab.scene.volumes[0].medium, -glm::dot(sun.direction, direction));
   Truth truth;
   for (int k = 0; k < 3; ++k)
   {
@@ -108,8 +115,7 @@ TEST(SingleScattering, ShadowRaysOfASlab)
 {
   for (const double step : { 0.25, 0.05, 0.01 })
   {
-    EXPECT_LE(
-      worst_of_all(by_marcher(ShadowMethod::Rays, step), cases, { 1.0, 0.8, 3.0 }), 1e-5)
+    EXPECT_LE(worst_of_all(by_marcher(ShadowMethod::Rays, step), cases, { 1.0, 0.8, 3.0 }), 1e-5)
       << step;
   }
 }
@@ -125,7 +131,8 @@ TEST(SingleScattering, TolerancesOfASlab)
   slab.scene.camera = view.camera(1.0);
   for (const double tolerance : { 1e-3, 1e-5 })
   {
-    const double error = worst_error(by_tolerance(tolerance)(slab.scene, edge, edge),
+    const double error = worst_error(
+      by_tolerance(tolerance)(slab.scene, edge, edge),
       [&](int x, int y) { return truth_of(slab, cases[1], view, x, y); },
       1.0);
     EXPECT_LE(error, tolerance);

@@ -3,13 +3,16 @@
 #include "../support/transport_scenes.h"
 
 #include "Transport/effect_plan.h"
+#include "Transport/fog_film.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
+#include <functional>
 #include <map>
 #include <memory>
-#include <random>
+#include <ostream>
 
 using namespace brume;
 using namespace transport_scenes;
@@ -37,6 +40,11 @@ struct Case
   std::shared_ptr<Voxels<float>> voxels;
   std::shared_ptr<Voxels<float>> temperatures;
 };
+
+void PrintTo(const Case& c, std::ostream* out)
+{
+  *out << c.name;
+}
 
 Light sun(const glm::dvec3& direction, const glm::dvec3& colour = glm::dvec3(1.0))
 {
@@ -205,6 +213,17 @@ std::vector<Case> all_cases()
     s.volumes[0].medium.lobes = forward;
   }
   {
+    // Lamps are as far as the world has them, optical depths are the data's.
+    Scene& s = add(lit_ball("point light, prop scaled", 0.4));
+    s.volumes[0].world_from_data =
+      glm::scale(glm::translate(glm::dmat4(1.0), glm::dvec3(30.0, 0.0, 5.0)), glm::dvec3(40.0));
+    s.lights[0].positional = true;
+    s.lights[0].position = { 49.5, 18.0, 20.0 };
+    s.lights[0].attenuation = { 0.0, 0.0, 0.01 };
+    s.camera = view_of(s, { -0.45, 0.35, -0.82 }, true).camera(1.0);
+    s.sky.radiance = glm::dvec3(0.01);
+  }
+  {
     Scene& s = add(lit_ball("sky only", 1.2));
     s.lights.clear();
     s.sky.radiance = { 0.4, 0.6, 1.0 };
@@ -252,7 +271,8 @@ public:
     MarchSettings settings;
     settings.step = 0.5 / (n - 1);
     settings.leave_error = 0.0;
-    settings.shadows = ShadowMethod::Rays;
+    settings.shadows = ShadowMethod::Volume;
+    settings.precise_shadows = true;
     apply_effects(effects, settings);
     TheMarcher.render(simplified(TheScene, effects), settings, film);
     return film;
@@ -352,15 +372,153 @@ TEST_P(Plans, TellWhatAForcedEffectCosts)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(EffectPlan,
-  Plans,
-  testing::ValuesIn(all_cases()),
-  [](const testing::TestParamInfo<Case>& info)
+/// Of fog alone pictures are in closed form.
+class FogPlans : public testing::TestWithParam<Case>
+{
+public:
+  static Film film(const Scene& scene, const EffectSet& effects)
   {
-    std::string name = info.param.name;
-    name.erase(std::remove(name.begin(), name.end(), ','), name.end());
-    std::replace(name.begin(), name.end(), ' ', '_');
-    return name;
-  });
+    Film film(pixels, pixels);
+    render_fog(simplified(scene, effects), film);
+    return film;
+  }
+};
+
+TEST_P(FogPlans, TellWhatAnEffectCosts)
+{
+  const Scene& scene = GetParam().scene;
+  Marcher marcher;
+  const Film full = film(scene, EffectSet());
+  for (const Effect effect : { Effect::Scattering,
+         Effect::PhaseAnisotropy,
+         Effect::ColouredExtinction,
+         Effect::Ambient,
+         Effect::Fog,
+         Effect::Surfaces })
+  {
+    EffectSet without;
+    without.set(effect, false);
+    const double change = Pictures::difference(film(scene, without), full);
+    const EffectPlan plan = plan_effects(marcher, scene, 0.0, { { effect, false } });
+    SCOPED_TRACE(std::string(effect_name(effect)) + ": " + plan[effect].reason);
+    EXPECT_LE(change, plan[effect].error_bound + rounding);
+    if (change > 1e-4)
+    {
+      std::printf("%s, %s: bound %.3g, change %.3g, %.1f times\n",
+        GetParam().name.c_str(),
+        effect_name(effect),
+        plan[effect].error_bound,
+        change,
+        plan[effect].error_bound / change);
+      EXPECT_LE(plan[effect].error_bound, 100.0 * change);
+    }
+  }
+  for (const double tolerance : { 0.0, 0.004, 0.05 })
+  {
+    const EffectPlan plan = plan_effects(marcher, scene, tolerance);
+    EXPECT_LE(plan.error_bound(), 0.25 * tolerance);
+    EXPECT_LE(Pictures::difference(film(scene, plan.on()), full), plan.error_bound() + rounding);
+  }
+}
+
+std::vector<Case> fogs()
+{
+  std::vector<Case> cases;
+  const auto add = [&](const std::string& name) -> Scene&
+  {
+    Case c = lit_ball(name, 0.0);
+    c.scene.fog.enabled = true;
+    c.scene.fog.extinction = { 0.3, 0.4, 0.6 };
+    c.scene.fog.falloff = 2.0;
+    c.scene.sky.up = { 0.0, 1.0, 0.0 };
+    cases.push_back(std::move(c));
+    return cases.back().scene;
+  };
+  {
+    Scene& s = add("layered fog");
+    s.fog.lobes = { { PhaseFunction::HenyeyGreenstein, 1.0, 0.7 } };
+    s.sky.radiance = { 0.3, 0.4, 0.6 };
+  }
+  {
+    Scene& s = add("even fog");
+    s.fog.falloff = 0.0;
+    s.fog.albedo = { 0.9, 0.5, 0.3 };
+    s.sky.ground = glm::dvec3(0.2);
+    s.surface_depth.assign(pixels * pixels, 0.8f);
+    s.surface_depth[17] = 0.3f;
+  }
+  {
+    Scene& s = add("thin fog");
+    s.fog.extinction = { 1e-4, 1.1e-4, 1.2e-4 };
+    s.fog.lobes = { { PhaseFunction::Schlick, 1.0, -0.4 } };
+  }
+  {
+    Scene& s = add("fog around a lamp");
+    s.lights[0].positional = true;
+    s.lights[0].position = { 0.05, 0.1, 0.0 };
+    s.lights[0].attenuation = { 0.01, 0.0, 1.0 };
+    s.lights[0].diffuse = glm::dvec3(0.2);
+  }
+  return cases;
+}
+
+std::string name_of(const testing::TestParamInfo<Case>& info)
+{
+  std::string name = info.param.name;
+  name.erase(std::remove(name.begin(), name.end(), ','), name.end());
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(EffectPlan, Plans, testing::ValuesIn(all_cases()), name_of);
+INSTANTIATE_TEST_SUITE_P(EffectPlan, FogPlans, testing::ValuesIn(fogs()), name_of);
+
+TEST(EffectPlanner, KeepsWhatHolds)
+{
+  Case c = lit_ball("", 0.5);
+  Marcher marcher;
+  EffectPlanner planner;
+  const EffectPlan* plan = &planner.plan(marcher, c.scene, 0.004);
+  EXPECT_EQ(&planner.plan(marcher, c.scene, 0.004), plan);
+  // What changed is seen, whatever is kept: each as a planner has it that knows nothing.
+  std::vector<std::function<void(Scene&)>> changes = {
+    [](Scene& s) {
+      s.camera = view_of(s, { 0.7, -0.1, 0.3 }, true).camera(1.0);
+    },
+    [](Scene& s) {
+      s.lights[0] = sun({ 0.1, 0.2, 1.0 });
+    },
+    [](Scene& s) { s.lights[0].diffuse = glm::dvec3(0.01); },
+    [](Scene& s) {
+      s.volumes[0].density.channels = { 1.0, 0.9, 0.9 };
+    },
+    [](Scene& s) { s.volumes[0].medium.octaves.count = 2; },
+    [](Scene& s) { s.volumes[0].density.extinction *= 0.3, s.volumes[0].medium_revision += 1000; },
+    [](Scene& s) { s.sky.radiance = glm::dvec3(0.1); },
+    [](Scene& s) { s.volumes[0].medium.silver_lining.enabled = true; },
+    [](Scene& s) { s.volumes[0].medium.emission = glm::dvec3(0.01); },
+  };
+  for (std::size_t i = 0; i < changes.size(); ++i)
+  {
+    changes[i](c.scene);
+    const EffectPlan& now = planner.plan(marcher, c.scene, 0.004);
+    Marcher fresh;
+    const EffectPlan anew = plan_effects(fresh, c.scene, 0.004);
+    for (int e = 0; e < effect_count; ++e)
+    {
+      EXPECT_EQ(now.effects[e].on, anew.effects[e].on) << i;
+      EXPECT_EQ(now.effects[e].error_bound, anew.effects[e].error_bound) << i;
+      EXPECT_EQ(now.effects[e].reason, anew.effects[e].reason) << i;
+    }
+  }
+}
+
+TEST(EffectPlanner, RefusesWhatCannotBePlanned)
+{
+  Case c = lit_ball("", 0.5);
+  Marcher marcher;
+  EXPECT_THROW(plan_effects(marcher, c.scene, -0.1), std::invalid_argument);
+  EXPECT_THROW(plan_effects(marcher, c.scene, std::nan("")), std::invalid_argument);
+}
 
 }

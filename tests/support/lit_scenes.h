@@ -49,11 +49,8 @@ inline double schlick_of_k(double k, double cosine)
 /// With the k whose mean cosine is g.
 inline double schlick(double g, double cosine)
 {
-  const auto mean_minus_g = [g](double k)
-  {
-    return integral(
-             [k](double mu) { return 2.0 * pi * mu * schlick_of_k(k, mu); }, -1.0, 1.0) -
-      g;
+  const auto mean_minus_g = [g](double k) {
+    return integral([k](double mu) { return 2.0 * pi * mu * schlick_of_k(k, mu); }, -1.0, 1.0) - g;
   };
   const auto k = boost::math::tools::bisect(
     mean_minus_g, -0.99999, 0.99999, boost::math::tools::eps_tolerance<double>(48));
@@ -103,8 +100,8 @@ struct Slab
   {
     Volume& volume = scene.volumes[0];
     volume.grid = voxels.grid();
-    volume.data_from_index = placed(glm::dvec3(0.5 * width, 0.5 * width, 0.25),
-      glm::dvec3(-0.5 * width, -0.5 * width, 0.0));
+    volume.data_from_index = placed(
+      glm::dvec3(0.5 * width, 0.5 * width, 0.25), glm::dvec3(-0.5 * width, -0.5 * width, 0.0));
     volume.meaning = ValueMeaning::Density;
     const double most = std::max({ depth.x, depth.y, depth.z });
     volume.density.extinction = 2.0 * most;
@@ -121,7 +118,8 @@ struct Slab
     Light sun;
     sun.diffuse = diffuse;
     sun.direction = -glm::dvec3(std::sin(zenith * degree) * std::cos(azimuth * degree),
-      std::sin(zenith * degree) * std::sin(azimuth * degree), std::cos(zenith * degree));
+      std::sin(zenith * degree) * std::sin(azimuth * degree),
+      std::cos(zenith * degree));
     scene.lights.push_back(sun);
   }
 
@@ -130,8 +128,7 @@ struct Slab
   {
     View view;
     view.centre = glm::dvec3(0.0, 0.0, 0.5);
-    view.forward = -glm::dvec3(
-      std::sin(zenith * pi / 180.0), 0.0, std::cos(zenith * pi / 180.0));
+    view.forward = -glm::dvec3(std::sin(zenith * pi / 180.0), 0.0, std::cos(zenith * pi / 180.0));
     view.up = glm::dvec3(0.0, 1.0, 0.0);
     view.distance = 12.0;
     view.half_height = half_height;
@@ -268,7 +265,7 @@ double worst_relative_error(const Film& film, const TruthOf& truth_of)
       for (int c = 0; c < 3; ++c)
       {
         const double off = std::abs(film.radiance[c][pixel] - truth.radiance[c]) /
-          std::max(truth.radiance[c], 1e-30);
+                           std::max(truth.radiance[c], 1e-30);
         worst = off <= worst ? worst : off;
       }
     }

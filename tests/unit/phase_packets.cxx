@@ -15,13 +15,16 @@ namespace HWY_NAMESPACE
 
 #include "Transport/phase-inl.h"
 
-void packet_phase_target(const PhaseModel& model, const float* one_minus_cosine,
-  const float* one_plus_cosine, std::size_t count, float* result)
+void packet_phase_target(const PhaseModel& model,
+  const float* one_minus_cosine,
+  const float* one_plus_cosine,
+  std::size_t count,
+  float* result)
 {
   for (std::size_t i = 0; i < count; i += lane_count)
   {
-    const Real value = phase<Real>(model, hn::LoadU(float_tag, one_minus_cosine + i),
-      hn::LoadU(float_tag, one_plus_cosine + i));
+    const Real value = phase<Real>(
+      model, hn::LoadU(float_tag, one_minus_cosine + i), hn::LoadU(float_tag, one_plus_cosine + i));
     hn::StoreU(value, float_tag, result + i);
   }
 }
@@ -36,8 +39,11 @@ namespace brume
 HWY_EXPORT(packet_phase_target);
 }
 
-void packet_phase(const brume::PhaseModel& model, const float* one_minus_cosine,
-  const float* one_plus_cosine, std::size_t count, float* result)
+void packet_phase(const brume::PhaseModel& model,
+  const float* one_minus_cosine,
+  const float* one_plus_cosine,
+  std::size_t count,
+  float* result)
 {
   using namespace brume;
   HWY_DYNAMIC_DISPATCH(packet_phase_target)

@@ -6,5 +6,8 @@
 #include <cstddef>
 
 /// The phase function at `count` angles, a multiple of 16, with the instruction set that is chosen.
-void packet_phase(const brume::PhaseModel& model, const float* one_minus_cosine,
-  const float* one_plus_cosine, std::size_t count, float* result);
+void packet_phase(const brume::PhaseModel& model,
+  const float* one_minus_cosine,
+  const float* one_plus_cosine,
+  std::size_t count,
+  float* result);

@@ -20,16 +20,16 @@ double luminance(const glm::dvec3& rgb)
 
 }
 
-// The SI's candela was once defined by it: at the freezing point of platinum, 2041.4 K, a black body
-// has 60 cd/cm² (resolution 3 of the 9th CGPM, 1948). The fits of the matching functions are within
-// about 1 %.
+// The SI's candela was once defined by it: at the freezing point of platinum, 2041.4 K, a black
+// body has 60 cd/cm² (resolution 3 of the 9th CGPM, 1948). The fits of the matching functions are
+// within about 1 %.
 TEST(BlackBody, PlatinumFreezesAt60CandelaOverASquareCentimetre)
 {
   EXPECT_NEAR(683.0 * black_body_xyz(2041.4).y / 6e5, 1.0, 0.015);
 }
 
-// CIE standard illuminant A, 2855.5 K (CIE 15): x = 0.44757, y = 0.40745; and the Planckian locus at
-// 6500 K: 0.3135, 0.3237 (G. Wyszecki, W. S. Stiles, Color Science, 1982).
+// CIE standard illuminant A, 2855.5 K (CIE 15): x = 0.44757, y = 0.40745; and the Planckian locus
+// at 6500 K: 0.3135, 0.3237 (G. Wyszecki, W. S. Stiles, Color Science, 1982).
 TEST(BlackBody, ChromaticitiesAreThePublishedOnes)
 {
   const auto expect = [](double temperature, double x, double y, double off = 0.003)
@@ -55,7 +55,7 @@ TEST(BlackBody, LuminanceIsTheIntegral)
     const double y = 0.821 * lobe(568.8, 46.9, 40.5) + 0.286 * lobe(530.9, 16.3, 31.1);
     const double metres = nm * 1e-9;
     return y * 1.191042972e-16 / std::pow(metres, 5) /
-      std::expm1(0.01438776877 / (metres * kelvin)) * 1e-9;
+           std::expm1(0.01438776877 / (metres * kelvin)) * 1e-9;
   };
   for (double kelvin : { 800.0, 1500.0, 6500.0, 1e5 })
   {
@@ -106,8 +106,7 @@ TEST(BlackBody, IsFiniteNotNegativeAndGrows)
   }
   EXPECT_EQ(black_body_radiance(0.0, 1500.0), glm::dvec3(0.0));
   EXPECT_EQ(black_body_radiance(-10.0, 1500.0), glm::dvec3(0.0));
-  EXPECT_EQ(
-    black_body_radiance(std::numeric_limits<double>::quiet_NaN(), 1500.0), glm::dvec3(0.0));
+  EXPECT_EQ(black_body_radiance(std::numeric_limits<double>::quiet_NaN(), 1500.0), glm::dvec3(0.0));
   EXPECT_EQ(black_body_radiance(1e9, 1500.0), black_body_radiance(1e5, 1500.0));
 }
 
@@ -135,7 +134,8 @@ TEST(BlackBodyTable, IsAsCloseAsItSays)
       const BlackBodyNode& a = table.nodes[index];
       const BlackBodyNode& b = table.nodes[index + 1];
       const double f = position - index;
-      const glm::dvec3 got(a.red + f * (b.red - a.red), a.green + f * (b.green - a.green),
+      const glm::dvec3 got(a.red + f * (b.red - a.red),
+        a.green + f * (b.green - a.green),
         a.blue + f * (b.blue - a.blue));
       const glm::dvec3 truth = black_body_radiance(kelvin, 1500.0);
       for (int c = 0; c < 3; ++c)

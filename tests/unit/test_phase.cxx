@@ -43,7 +43,10 @@ double over_the_sphere(const PhaseModel& model, const F& f)
           const double p = scalar::phase<double>(model, forward ? near : far, forward ? far : near);
           return 2.0 * pi * p * f(forward ? 1.0 - rest : rest - 1.0) * rest;
         },
-        u, u + 1.0, 8, 1e-12);
+        u,
+        u + 1.0,
+        8,
+        1e-12);
     }
   }
   return sum;
@@ -81,12 +84,12 @@ TEST(Phase, IsTheFormula)
   {
     EXPECT_NEAR(value(prepare_phase({}), mu), 1.0 / (4.0 * pi), 1e-16);
     EXPECT_NEAR(value(prepare_phase(one(PhaseFunction::Rayleigh, 0.0)), mu),
-      3.0 / (16.0 * pi) * (1.0 + mu * mu), 1e-15);
+      3.0 / (16.0 * pi) * (1.0 + mu * mu),
+      1e-15);
     for (const double g : anisotropies)
     {
       const double hg = (1.0 - g * g) / (4.0 * pi) / std::pow(1.0 + g * g - 2.0 * g * mu, 1.5);
-      EXPECT_NEAR(
-        value(prepare_phase(one(PhaseFunction::HenyeyGreenstein, g)), mu) / hg, 1.0, 1e-7)
+      EXPECT_NEAR(value(prepare_phase(one(PhaseFunction::HenyeyGreenstein, g)), mu) / hg, 1.0, 1e-7)
         << g << " " << mu; // the book's form cancels at |g| = 0.999
       const double k = std::copysign(1.0 - schlick_one_minus_k(g), g);
       const double schlick = (1.0 - k * k) / (4.0 * pi) / std::pow(1.0 - k * mu, 2.0);
@@ -121,14 +124,17 @@ TEST(Phase, SchlicksKIsNearThePublishedOne)
 TEST(Phase, LobesAreWeighted)
 {
   const std::vector<PhaseLobe> lobes = { { PhaseFunction::HenyeyGreenstein, 3.0, 0.8 },
-    { PhaseFunction::Rayleigh, 1.0, 0.0 }, { PhaseFunction::Isotropic, 0.5, 0.9 },
-    { PhaseFunction::Schlick, 0.5, -0.4 }, { PhaseFunction::HenyeyGreenstein, 0.0, 0.1 } };
+    { PhaseFunction::Rayleigh, 1.0, 0.0 },
+    { PhaseFunction::Isotropic, 0.5, 0.9 },
+    { PhaseFunction::Schlick, 0.5, -0.4 },
+    { PhaseFunction::HenyeyGreenstein, 0.0, 0.1 } };
   for (const double factor : { 1.0, 0.5, 0.0 })
   {
     const PhaseModel model = prepare_phase(lobes, factor);
     EXPECT_NEAR(over_the_sphere(model, [](double) { return 1.0; }), 1.0, 1e-9);
     EXPECT_NEAR(over_the_sphere(model, [](double mu) { return mu; }),
-      factor * (3.0 * 0.8 - 0.5 * 0.4) / 5.0, 1e-9);
+      factor * (3.0 * 0.8 - 0.5 * 0.4) / 5.0,
+      1e-9);
     EXPECT_EQ(model.is_isotropic(), false); // Rayleigh's part stays
   }
   EXPECT_TRUE(prepare_phase(one(PhaseFunction::HenyeyGreenstein, 0.9), 0.0).is_isotropic());
@@ -144,7 +150,8 @@ TEST(Phase, SmallAnisotropiesAreIsotropic)
     {
       for (const double mu : { -1.0, 0.0, 1.0 })
       {
-        EXPECT_NEAR(value(prepare_phase(one(function, g)), mu) * 4.0 * pi, 1.0 + 3.0 * g * mu, 4e-6);
+        EXPECT_NEAR(
+          value(prepare_phase(one(function, g)), mu) * 4.0 * pi, 1.0 + 3.0 * g * mu, 4e-6);
       }
     }
   }
@@ -183,8 +190,8 @@ TEST(Phase, SilverLiningAddsTwoLobes)
   add_silver_lining({ true, 0.6, 1.0, 0.25 }, lined);
   EXPECT_NEAR(value(lined, 0.3), value(plain, 0.3) + 0.6 / (4.0 * pi), 1e-15);
   // Off, or of no strength: the same to the bit.
-  for (const SilverLining& lining : { SilverLining{ false, 0.6, 0.2, 0.25 },
-         SilverLining{ true, 0.0, 0.2, 0.25 } })
+  for (const SilverLining& lining :
+    { SilverLining{ false, 0.6, 0.2, 0.25 }, SilverLining{ true, 0.0, 0.2, 0.25 } })
   {
     lined = plain;
     add_silver_lining(lining, lined);
@@ -196,7 +203,8 @@ TEST(Phase, SilverLiningAddsTwoLobes)
 TEST(Phase, LargestIsABound)
 {
   const std::vector<PhaseLobe> lobes = { { PhaseFunction::HenyeyGreenstein, 1.0, 0.8 },
-    { PhaseFunction::Rayleigh, 2.0, 0.0 }, { PhaseFunction::Schlick, 1.0, -0.7 } };
+    { PhaseFunction::Rayleigh, 2.0, 0.0 },
+    { PhaseFunction::Schlick, 1.0, -0.7 } };
   const PhaseModel model = prepare_phase(lobes);
   for (const double low : { -1.0, -0.4, 0.3 })
   {
@@ -233,8 +241,10 @@ TEST(Phase, PacketsAgreeWithDoublePrecision)
   {
     ASSERT_TRUE(force_simd_target(target));
     double worst = 0.0;
-    for (const PhaseFunction function : { PhaseFunction::HenyeyGreenstein, PhaseFunction::Schlick,
-           PhaseFunction::Rayleigh, PhaseFunction::Isotropic })
+    for (const PhaseFunction function : { PhaseFunction::HenyeyGreenstein,
+           PhaseFunction::Schlick,
+           PhaseFunction::Rayleigh,
+           PhaseFunction::Isotropic })
     {
       for (const double g : anisotropies)
       {
