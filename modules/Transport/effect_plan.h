@@ -35,6 +35,9 @@ struct EffectPlan
   EffectSet on() const;
   /// The sum of the bounds: how wrong the picture is at the most for what it leaves out.
   double error_bound() const;
+  /// The time that the picture is expected to take, in that of emission and absorption with the same
+  /// steps: the sum of the costs (effect_cost) of what is on.
+  double expected_cost() const;
 };
 
 /// Settles each effect. What the scene has nothing of (no sky, equal channels, …) is off with a bound

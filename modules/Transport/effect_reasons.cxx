@@ -1,5 +1,6 @@
 #include "Transport/effect_reasons.h"
 
+#include "Transport/fog.h"
 #include "Transport/phase.h"
 
 #include <algorithm>
@@ -59,11 +60,6 @@ bool emits(const Volume& volume)
   return medium.lit
            ? medium.emission != black || (medium.black_body > 0.0 && medium.temperature.voxels)
            : volume.meaning == ValueMeaning::Classified;
-}
-
-bool has_fog(const Scene& scene)
-{
-  return scene.fog.enabled && scene.fog.extinction != black;
 }
 
 bool fog_scatters(const Scene& scene)
