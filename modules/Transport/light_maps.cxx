@@ -172,7 +172,7 @@ void LightMaps::find_corners(const Scene& scene,
     const glm::dmat4 world_from_index = volume.world_from_data * volume.data_from_index;
     glm::dvec3 lower(1e300);
     glm::dvec3 upper(-1e300);
-    const VisibleBricks* bricks = whole ? nullptr : volumes[k].bricks;
+    const VisibleBricks* bricks = whole ? nullptr : volumes[k].visible;
     if (bricks)
     {
       const double edge = 1 << bricks->shift;
@@ -308,10 +308,6 @@ void LightMaps::update(const Scene& scene,
     { spacing, voxel, double(floats), double(lit.maps), thinnest, double(lit.components),
       double(lit.fog.enabled) });
 
-  for (const VolumeTask& volume : volumes)
-  {
-    common.push_back(volume.bricks != nullptr);
-  }
   const auto prepare = [&](const Frame& frame, LightLattice& lattice)
   {
     std::copy(frame.dims, frame.dims + 3, lattice.dims);
