@@ -272,7 +272,8 @@ std::string figures_of(Effect effect, const Scene& scene, const PlanFigures& fig
                ? "matter sends light by itself"
                : "the transfer functions' colour is the source";
     case Effect::Scattering:
-      return std::to_string(scene.lights.size()) + " lights" +
+      return std::to_string(scene.lights.size()) +
+             (scene.lights.size() == 1 ? " light" : " lights") +
              (has_sky(scene) ? " and the sky" : "") + ", optical depth along the view at most " +
              two_digits(figures.view.deepest);
     case Effect::PhaseAnisotropy:
