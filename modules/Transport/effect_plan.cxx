@@ -82,7 +82,8 @@ private:
   bool may_go(Effect effect) const
   {
     return this->On.has(effect) && this->Forced.count(effect) == 0 &&
-           effect != Effect::SpaceLeaping && // free of error, and worth its cost
+           // These two save work, and what they leave out cannot be seen.
+           effect != Effect::SpaceLeaping && effect != Effect::Surfaces &&
            // Of surfaces and slices no bound is known.
            (this->TheScene.blend_mode == BlendMode::Composite);
   }
