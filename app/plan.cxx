@@ -10,6 +10,7 @@
 #include "atomic_file.h"
 
 #include "Transport/effect_plan.h"
+#include "Transport/fog.h"
 #include "Transport/marcher.h"
 
 #include "vtkBrumeEffectPlan.h"
@@ -60,8 +61,11 @@ EffectPlan make_plan(const VolumeScene& scene)
   {
     throw Failure(scene.options.input, "it cannot be drawn", words_of_vtk(error));
   }
+  // As the mapper does: of pictures that VTK draws too, nothing that changes a pixel is left out.
+  const bool lit = has_fog(*plain) || std::any_of(plain->volumes.begin(), plain->volumes.end(),
+                                        [](const Volume& v) { return v.medium.lit; });
   Marcher marcher;
-  const EffectPlan plan = plan_effects(marcher, *plain, scene.options.tolerance,
+  const EffectPlan plan = plan_effects(marcher, *plain, lit ? scene.options.tolerance : 0.0,
     mapper->GetEffectPlan()->GetForces(), scene.options.threads);
   InterruptionWatch::check(scene.options.input.c_str());
   return plan;
@@ -96,7 +100,9 @@ std::string table(const EffectPlan& plan, double tolerance)
       effect.reason);
   }
   out << "What is left out changes a pixel by " << std::setprecision(2) << plan.error_bound()
-      << " of white at the most; tolerance " << tolerance << ".\n";
+      << " of white at the most; tolerance " << tolerance
+      << ".\nThe picture is expected to take " << plan.expected_cost()
+      << " times as long as by emission and absorption with the same steps.\n";
   return out.str();
 }
 
@@ -111,7 +117,7 @@ nlohmann::ordered_json to_json(const EffectPlan& plan, const VolumeScene& scene)
   }
   return { { "format", "brume-plan" }, { "version", 1 }, { "input", scene.options.input },
     { "tolerance", scene.options.tolerance }, { "error_bound", plan.error_bound() },
-    { "effects", effects } };
+    { "expected_cost", plan.expected_cost() }, { "effects", effects } };
 }
 
 void run(const Options& options)

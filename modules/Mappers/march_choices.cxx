@@ -80,30 +80,10 @@ void MarchChoices::MakePlan(Marcher& marcher, const Scene& whole, const ChoiceSe
     key.push_back(force.second);
   }
   // Without light and forces bounds are 0 from all sides.
-  if (!wanted.coarse && (lit || !wanted.forces.empty()))
+  const bool by_view = !wanted.coarse && (lit || !wanted.forces.empty());
+  if (by_view || !this->PlanKey.Holds(whole, key))
   {
-    const double* view = &whole.camera.clip_from_world[0][0];
-    key.insert(key.end(), view, view + 16);
-    for (const Volume& volume : whole.volumes)
-    {
-      const double* place = &volume.world_from_data[0][0];
-      key.insert(key.end(), place, place + 16);
-      const Shading& shading = volume.shading;
-      key.insert(
-        key.end(), { shading.ambient, shading.diffuse, shading.specular, shading.specular_power });
-      key.push_back(volume.cropping.enabled);
-      key.insert(key.end(), volume.cropping.lower, volume.cropping.lower + 3);
-      key.insert(key.end(), volume.cropping.upper, volume.cropping.upper + 3);
-      key.push_back(volume.cropping.regions);
-      for (const glm::dvec4& plane : volume.clipping_planes)
-      {
-        key.insert(key.end(), { plane.x, plane.y, plane.z, plane.w });
-      }
-    }
-  }
-  if (!this->PlanKey.Holds(whole, key))
-  {
-    this->Plan = plan_effects(marcher, whole, tolerance, wanted.forces, wanted.threads);
+    this->Plan = this->Planner.plan(marcher, whole, tolerance, wanted.forces, wanted.threads);
     this->PlanKey.Take(whole, key);
   }
   this->Effects = this->Plan.on();

@@ -81,6 +81,7 @@ private:
   const Scene* TheScene = nullptr;
   Scene Simple;
   MarchSettings Settings;
+  EffectPlanner Planner; ///< keeps of a plan what holds
   SceneKey PlanKey;
   EffectPlan Plan;
   EffectSet Effects; ///< that are on

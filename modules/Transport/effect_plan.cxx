@@ -82,7 +82,8 @@ private:
   bool may_go(Effect effect) const
   {
     return this->On.has(effect) && this->Forced.count(effect) == 0 &&
-           effect != Effect::SpaceLeaping && // free of error, and worth its cost
+           // These two save work, and what they leave out cannot be seen.
+           effect != Effect::SpaceLeaping && effect != Effect::Surfaces &&
            // Of surfaces and slices no bound is known.
            (this->TheScene.blend_mode == BlendMode::Composite);
   }
@@ -190,6 +191,16 @@ double EffectPlan::error_bound() const
   for (const PlannedEffect& planned : this->effects)
   {
     sum += planned.error_bound;
+  }
+  return sum;
+}
+
+double EffectPlan::expected_cost() const
+{
+  double sum = 0.0;
+  for (const PlannedEffect& planned : this->effects)
+  {
+    sum += planned.on ? effect_cost(planned.effect) : 0.0;
   }
   return sum;
 }

@@ -24,6 +24,8 @@ namespace
 constexpr double most_nodes = 1 << 26;
 /// Optical depths of 16 bits end here (divided by the thinnest octave's attenuation): e⁻²⁰ = 2e-9.
 constexpr double deepest_word = 20.0;
+/// Where a step of 16 bits would be larger than this, 32 are taken.
+constexpr double widest_word = 80.0 / 65535.0;
 
 void store(const glm::dmat4& m, float out[12])
 {
@@ -157,17 +159,20 @@ LightMaps::Frame LightMaps::frame_of_box(double spacing) const
   return enclose<Frame>(this->Corners, directions, spacing);
 }
 
-void LightMaps::find_corners(
-  const Scene& scene, const std::vector<VolumeTask>& volumes, bool whole)
+void LightMaps::find_corners(const Scene& scene,
+  const std::vector<VolumeTask>& volumes,
+  const LitTask& lit,
+  bool whole)
 {
   this->Corners.clear();
   for (std::size_t k = 0; k < volumes.size(); ++k)
   {
     const Volume& volume = scene.volumes[k];
+    const LitFrame& frame = lit.frames[k];
     const glm::dmat4 world_from_index = volume.world_from_data * volume.data_from_index;
     glm::dvec3 lower(1e300);
     glm::dvec3 upper(-1e300);
-    const VisibleBricks* bricks = whole ? nullptr : volumes[k].bricks;
+    const VisibleBricks* bricks = whole ? nullptr : volumes[k].visible;
     if (bricks)
     {
       const double edge = 1 << bricks->shift;
@@ -200,6 +205,11 @@ void LightMaps::find_corners(
       upper[axis] = bricks && upper[axis] < (bricks->dims[axis] << bricks->shift)
         ? std::min(upper[axis], high)
         : high;
+      if (!whole) // up to where a box of cropping ends
+      {
+        lower[axis] = std::min(std::max(lower[axis], double(frame.lower[axis])), high);
+        upper[axis] = std::max(std::min(upper[axis], double(frame.upper[axis])), lower[axis]);
+      }
     }
     for (int corner = 0; corner < 8; ++corner)
     {
@@ -236,7 +246,7 @@ double LightMaps::deepest(const Scene& scene, const std::vector<VolumeTask>& vol
       }
       if (volumes[k].table->columns > 0)
       {
-        return deepest_word;
+        return std::numeric_limits<double>::infinity();
       }
       most *= volumes[k].weight;
     }
@@ -280,21 +290,22 @@ void LightMaps::update(const Scene& scene,
   {
     if (!corners)
     {
-      this->find_corners(scene, volumes, lit.fog.enabled);
+      this->find_corners(scene, volumes, lit, lit.fog.enabled);
       corners = true;
     }
   };
-  double thinnest = 1.0;
-  for (const LitVolume& volume : lit.volumes)
+  const double thinnest = 30.0 / lit.deep_enough;
+  double most_depth = -1.0; // of what light volumes hold
+  const auto settle_depth = [&]
   {
-    for (const LitVolume::Octave& octave : volume.octaves)
+    if (most_depth < 0.0)
     {
-      thinnest = std::min(thinnest, std::max(double(octave.attenuation), 1e-3));
+      most_depth = std::clamp(this->deepest(scene, volumes), 1e-6, deepest_word / thinnest);
     }
-  }
+  };
   std::vector<double> common = matter;
   common.insert(common.end(),
-    { spacing, voxel, double(floats), double(lit.maps), thinnest, double(lit.shadows),
+    { spacing, voxel, double(floats), double(lit.maps), thinnest, double(lit.components),
       double(lit.fog.enabled) });
 
   const auto prepare = [&](const Frame& frame, LightLattice& lattice)
@@ -321,8 +332,10 @@ void LightMaps::update(const Scene& scene,
     const bool functions = lit.shadows == ShadowMethod::Functions && !light.positional;
     std::vector<double> key = common;
     key.push_back(light.positional);
+    key.push_back(static_cast<double>(lit.shadows));
     append(key, light.positional ? light.position : light.direction);
-    const bool wide = floats || functions;
+    settle_depth();
+    const bool wide = floats || functions || most_depth > widest_word * 65535.0;
     if (key != lattice.key)
     {
       lattice.key.clear();
@@ -335,15 +348,15 @@ void LightMaps::update(const Scene& scene,
       std::copy(lit.lights[i].place, lit.lights[i].place + 3, task.place);
       task.floats = wide;
       task.result = functions ? SweepTask::Result::Functions : SweepTask::Result::Depth;
-      lattice.scale = static_cast<float>(
-        std::clamp(this->deepest(scene, volumes), 1e-6, deepest_word / thinnest) / 65535.0);
+      lattice.scale = static_cast<float>(most_depth / 65535.0);
       task.scale = lattice.scale;
       const std::size_t count = functions
         ? static_cast<std::size_t>(frame.dims[0]) * frame.dims[1] * ShadowFunctions::planes
         : static_cast<std::size_t>(frame.nodes());
-      for (int map = 0; map < lit.maps; ++map)
+      for (int map = 0; map < 3; ++map)
       {
-        task.out[map] = reserve(lattice, map, count, wide);
+        void* out = reserve(lattice, map, map < lit.maps ? count : 0, wide);
+        task.out[map] = map < lit.maps ? out : nullptr;
       }
       this->run(task, threads);
       lattice.key = std::move(key);

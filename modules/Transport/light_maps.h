@@ -51,7 +51,9 @@ private:
   Frame frame_along(const glm::dvec3& axis, double spacing) const;
   Frame frame_of_box(double spacing) const;
   /// In fog, which sends light from everywhere, of whole boxes.
-  void find_corners(const Scene& scene, const std::vector<VolumeTask>& volumes, bool whole);
+  void find_corners(const Scene& scene, const std::vector<VolumeTask>& volumes,
+    const LitTask& lit,
+    bool whole);
   double deepest(const Scene& scene, const std::vector<VolumeTask>& volumes) const;
   void run(SweepTask& task, int threads) const;
 

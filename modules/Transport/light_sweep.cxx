@@ -98,8 +98,21 @@ private:
   void sweep_any(const DepthRays::Ways& ways, Vec3<Real> depth)
   {
     const float piece = 1.0f / static_cast<float>(Task.pieces);
+    const bool one = Task.volumes->size() == 1;
+    const Leaper leaper(one ? Task.volumes->front().bricks : nullptr, ways.lines[0]);
     for (int w = 1; w < Task.dims[2]; ++w)
     {
+      if (leaper.leaps())
+      {
+        // Where all lanes may leap over the way to the node.
+        const float before = static_cast<float>(w - 1);
+        const Real way = leaper.way(real(before));
+        if (hn::AllTrue(float_tag, hn::Or(hn::Not(ways.any), way > real(1.0f))))
+        {
+          store(w, depth);
+          continue;
+        }
+      }
       for (int i = 0; i < Task.pieces; ++i)
       {
         const float from = static_cast<float>(w - 1) + static_cast<float>(i) * piece;

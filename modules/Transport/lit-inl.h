@@ -78,6 +78,7 @@ public:
     , Depths(task)
     , Shadows(task.lit->lights.size() * (steps_at_once + 1) * 3)
     , FogDepths(Foggy ? task.lit->lights.size() * 2 : 0)
+    , Strengths(task.lit->lights.size())
     , Phases(task.lit->lights.size() * PieceCount * most_octaves)
     , Functions(field_functions(task.volumes->front().field))
   {
@@ -237,6 +238,7 @@ private:
       if (!light.source.positional)
       {
         find_phases(l, broadcast3<Real>(light.source.direction));
+        Strengths.set(l, real(1.0f));
       }
     }
   }
@@ -291,7 +293,8 @@ private:
         samples += hn::CountTrue(float_tag, active);
         piece.length =
           hn::IfThenElseZero(active, (stretches[i].high - stretches[i].low) * unit);
-        piece.amount = clamp(values[i], zero, real(1e30f)) * piece.length;
+        piece.amount =
+          hn::Min(clamp(values[i], zero, real(1e30f)) * piece.length, real(1e30f));
         piece.depth = hn::Min(piece.amount * real(volume.extinction), real(1e30f));
         piece.inside = active;
         any = hn::Or(any, piece.amount > zero);
@@ -361,8 +364,7 @@ private:
         Real depth = light.fog_hides ? real(FogTask::deepest) : profile * real(light.fog_above);
         if (light.source.positional)
         {
-          const Vec3<Real> way =
-            world_place(rays, ends[i]) - broadcast3<Real>(light.source.position);
+          const Vec3<Real> way = lamp_offset(rays, ends[i], l);
           const Real there = real(light.fog_exponent);
           depth = real(Lit.fog.extinction) *
             fog_column<Real>(profile, transmittance_of(there), hn::Abs(exponent - there),
@@ -493,7 +495,7 @@ private:
         dim[c] = dim[c] + part;
       }
     }
-    if (Foggy && Task.mixture == Mixture::Components)
+    if (!Single && Lit.components)
     {
       mix_components(pieces, dim);
     }
@@ -513,6 +515,16 @@ private:
       share[c] = mean_transmittance(dim[c], passes[c]);
     }
 
+    if constexpr (Rich)
+    {
+      for (int l = 0; l < LightCount; ++l)
+      {
+        if (Lit.lights[l].source.positional)
+        {
+          Strengths.set(l, lamp(rays, stretch, l));
+        }
+      }
+    }
     Vec3<Real> sent{ zero, zero, zero }; // as the eye end of the stretch has it
     for (int k = 0; k < PieceCount; ++k)
     {
@@ -544,7 +556,6 @@ private:
   /// See Mixture::Components: of extinctions that add up to Σ the sum of squares over Σ is taken.
   HWY_INLINE void mix_components(const Piece* pieces, Channels<Chromatic>& dim) const
   {
-    const Real least = real(1e-18f); // squares of less are nothing
     for (int c = 0; c < (Chromatic ? 3 : 1); ++c)
     {
       Real squares = hn::Zero(float_tag);
@@ -554,8 +565,7 @@ private:
           Chromatic ? pieces[k].depth * real(Lit.volumes[k].channels[c]) : pieces[k].depth;
         squares = hn::MulAdd(part, part, squares);
       }
-      const Mask some = dim[c] > least;
-      dim[c] = hn::IfThenElse(some, squares / hn::IfThenElse(some, dim[c], least), dim[c]);
+      dim[c] = DepthRays::mixed(dim[c], squares);
     }
   }
 
@@ -637,9 +647,9 @@ private:
       {
         Channels<Chromatic> light;
         Real strength;
-        if (Rich && Lit.lights[l].source.positional)
+        if (Rich)
         {
-          strength = lamp(rays, stretch, l);
+          strength = Strengths.get(l);
         }
         else
         {
@@ -731,6 +741,12 @@ private:
     return transform(Lit.world_from_index, rays.lines[0].at(position));
   }
 
+  /// The way from a lamp to a place.
+  HWY_INLINE Vec3<Real> lamp_offset(const Rays& rays, Real position, int l) const
+  {
+    return transform(Lit.lights[l].offset_from_index, rays.lines[0].at(position));
+  }
+
   /// What a lamp sends to a stretch, and its phase functions there. Where it weakens with the square
   /// of the distance d, 1 / (a + c d²) is averaged over the stretch in closed form: with b the way
   /// from the place nearest to the lamp, δ its distance and r² = δ² + a / c,
@@ -740,8 +756,8 @@ private:
   {
     const ShadeLight& light = Lit.lights[l].source;
     const Real zero = hn::Zero(float_tag);
-    const Vec3<Real> place = world_place(rays, stretch.middle);
-    const Incidence<Real> from = incidence<Real>(light, place);
+    const Vec3<Real> offset = lamp_offset(rays, stretch.middle, l);
+    const Incidence<Real> from = incidence<Real>(light, offset);
     find_phases(l, -from.toward);
     const float constant_part = light.attenuation[0];
     const float square_part = light.attenuation[2];
@@ -749,7 +765,6 @@ private:
     {
       return from.strength;
     }
-    const Vec3<Real> offset = place - broadcast3<Real>(light.position);
     const Real along = hn::Neg(dot(offset, Viewer));
     const Real square = dot(offset, offset);
     const Real length = (stretch.high - stretch.low) * rays.step_world;
@@ -819,6 +834,8 @@ private:
   {
     const LitVolume& medium = Lit.volumes[k];
     Real* out[3] = { &sent.x, &sent.y, &sent.z };
+    const VolumeTask& volume = Task.volumes->data()[k];
+    const Real weight = real(volume.meaning == ValueMeaning::Density ? volume.weight : 1.0f);
     Vec3<Real> source = broadcast3<Real>(medium.emission);
     if (medium.black_body)
     {
@@ -840,6 +857,7 @@ private:
       const Real scale = real(medium.black_body_scale);
       source = source + Vec3<Real>{ body[0] * scale, body[1] * scale, body[2] * scale };
     }
+    source = source * weight;
     const Real emitted[3] = { source.x, source.y, source.z };
     for (int c = 0; c < 3; ++c)
     {
@@ -964,6 +982,7 @@ private:
   LightDepths Depths;
   PacketArray Shadows;
   PacketArray FogDepths;
+  PacketArray Strengths; ///< of the lights, in the stretch at hand
   PacketArray Phases;
   FieldFunctions Functions;
   std::vector<FieldFunctions> Temperatures;

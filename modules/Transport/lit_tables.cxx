@@ -151,7 +151,13 @@ void LitTables::fill_volume(const Scene& scene, std::size_t k, LitVolume& lit)
   if (glows)
   {
     Glow* glow = this->Glows[k].get();
-    const double top = hottest(medium.temperature) * medium.temperature_scale;
+    // Scanned once for each revision of the voxels.
+    const bool known = glow && glow->voxels == medium.temperature.voxels &&
+      glow->data_revision == volume.data_revision &&
+      glow->medium_revision == volume.medium_revision && volume.data_revision != 0 &&
+      volume.medium_revision != 0;
+    const double largest = known ? glow->largest : hottest(medium.temperature);
+    const double top = largest * medium.temperature_scale;
     if (!glow || glow->hottest != top || glow->reference != medium.black_body_reference)
     {
       this->Glows[k] = std::make_unique<Glow>();
@@ -160,6 +166,10 @@ void LitTables::fill_volume(const Scene& scene, std::size_t k, LitVolume& lit)
       glow->reference = medium.black_body_reference;
       glow->table = make_black_body_table(std::max(top, 1.0), medium.black_body_reference);
     }
+    glow->largest = largest;
+    glow->voxels = medium.temperature.voxels;
+    glow->data_revision = volume.data_revision;
+    glow->medium_revision = volume.medium_revision;
     lit.black_body = &glow->table;
     lit.temperature = view_field(medium.temperature, medium.temperature.component, true, 0.0f);
     lit.temperature_scale = static_cast<float>(medium.temperature_scale);
@@ -209,6 +219,8 @@ void LitTables::fill_frame(const Scene& scene, std::size_t k, LitFrame& frame) c
     const double upper = volume.grid.upper(axis);
     frame.lower[axis] = static_cast<float>(box ? std::max(lower, cropping.lower[axis]) : lower);
     frame.upper[axis] = static_cast<float>(box ? std::min(upper, cropping.upper[axis]) : upper);
+    frame.rounding[axis] =
+      static_cast<float>(1e-6 * (1.0 + std::max(std::abs(lower), std::abs(upper))));
     frame.crop_lower[axis] = static_cast<float>(cropping.lower[axis]);
     frame.crop_upper[axis] = static_cast<float>(cropping.upper[axis]);
   }
@@ -216,7 +228,9 @@ void LitTables::fill_frame(const Scene& scene, std::size_t k, LitFrame& frame) c
   frame.regions = cropping.regions;
   for (const glm::dvec4& plane : volume.clipping_planes)
   {
-    frame.planes.emplace_back(plane * m);
+    const glm::dvec4 p = plane * m;
+    const double length = glm::length(glm::dvec3(p));
+    frame.planes.emplace_back(length > 0.0 ? p / length : p);
   }
 }
 
@@ -227,6 +241,10 @@ void LitTables::fill_light(const Scene& scene, const Light& light, LitLight& lit
   const glm::dvec3 toward(index_from_world * glm::dvec4(-light.direction, 0.0));
   const glm::dvec3 place(index_from_world * glm::dvec4(light.position, 1.0));
   lit.source = prepare_light(light);
+  std::fill_n(lit.source.position, 3, 0.0f);
+  glm::dmat4 offset = world_from_index(scene.volumes[0]);
+  offset[3] -= glm::dvec4(light.position, 0.0);
+  store4(offset, lit.offset_from_index);
   for (int c = 0; c < 3; ++c)
   {
     lit.irradiance[c] = static_cast<float>(pi * light.diffuse[c]);
@@ -298,6 +316,30 @@ void LitTables::find_channels(const Scene& scene)
   {
     this->Task.channels[c] = same ? static_cast<float>(first[c]) : 1.0f;
   }
+}
+
+void LitTables::find_deep_enough(const Scene& scene)
+{
+  constexpr double thin = 1e-3; // octaves and channels that are thinner see little matter anyway
+  LitTask& task = this->Task;
+  double thinnest = 1.0;
+  for (std::size_t k = 0; k < scene.volumes.size(); ++k)
+  {
+    for (const LitVolume::Octave& octave : task.volumes[k].octaves)
+    {
+      thinnest = octave.attenuation > thin ? std::min(thinnest, double(octave.attenuation)) : thinnest;
+    }
+  }
+  double channel = 1.0;
+  for (int c = 0; c < 3; ++c)
+  {
+    task.has_channel[c] = std::any_of(task.volumes.begin(),
+      task.volumes.begin() + static_cast<std::ptrdiff_t>(scene.volumes.size()),
+      [c](const LitVolume& v) { return v.channels[c] > 0.0f; });
+    channel = task.channels[c] > thin ? std::min(channel, double(task.channels[c])) : channel;
+  }
+  task.deep_enough = static_cast<float>(30.0 / (thinnest * channel));
+  task.components = scene.mixture == Mixture::Components && scene.volumes.size() > 1;
 }
 
 double LitTables::find_brightest(
@@ -430,6 +472,7 @@ void LitTables::update(const Scene& scene,
     plain = plain && !scene.lights[l].positional;
   }
   this->fill_fog(scene);
+  this->find_deep_enough(scene);
   store4(world_from_index(scene.volumes[0]), task.world_from_index);
   task.absorption = settings.absorption;
   const double voxel = smallest_edge(scene.volumes[0]);
@@ -442,10 +485,19 @@ void LitTables::update(const Scene& scene,
   const bool ambient = lit && (scene.sky.radiance != glm::dvec3(0.0) || scene.sky.ground != glm::dvec3(0.0));
   const bool maps =
     task.shadows == ShadowMethod::Volume || task.shadows == ShadowMethod::Functions;
-  if (maps || ambient)
+  const double shrink = // lengths of the world in one of the data
+    std::cbrt(std::abs(glm::determinant(glm::dmat3(first.world_from_data))));
+  // Where rays find the shadows, the sky's light needs no finer nodes.
+  const double spacing =
+    (task.shadows == ShadowMethod::Rays ? voxel : double(task.shadow_step)) * shrink;
+  const bool sound = spacing > 0.0 && std::isfinite(spacing);
+  if (maps && !sound)
+  {
+    task.shadows = ShadowMethod::None; // the matter is flat
+  }
+  if ((maps || ambient) && sound)
   {
     std::vector<double> matter;
-    double shrink = 1.0; // lengths of the world in one of the data
     for (const Volume& volume : scene.volumes)
     {
       matter.push_back(static_cast<double>(volume.data_revision));
@@ -470,9 +522,7 @@ void LitTables::update(const Scene& scene,
         this->Maps.clear(); // nothing may be kept
       }
     }
-    shrink = std::cbrt(std::abs(glm::determinant(glm::dmat3(first.world_from_data))));
     const bool floats = settings.precise_shadows;
-    const double spacing = task.shadow_step * shrink;
     this->Maps.update(
       scene, volumes, matter, spacing, voxel * shrink, floats, threads, task, ambient);
     plain = plain && task.ambient.empty();

@@ -8,6 +8,7 @@
 #include "Transport/marcher.h"
 #include "Transport/scene.h"
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -43,6 +44,7 @@ private:
   void fill_light(const Scene& scene, const Light& light, LitLight& lit) const;
   void fill_fog(const Scene& scene);
   void find_channels(const Scene& scene);
+  void find_deep_enough(const Scene& scene);
   double brightest_fog(const Scene& scene) const;
   double largest_phase_toward_camera(
     const Scene& scene, const Light& light, const PhaseModel& phase) const;
@@ -52,6 +54,10 @@ private:
   {
     double hottest = 0.0;
     double reference = 0.0;
+    double largest = 0.0; ///< value of the temperatures
+    const void* voxels = nullptr;
+    std::uint64_t data_revision = 0;
+    std::uint64_t medium_revision = 0;
     BlackBodyTable table;
   };
   LitTask Task;

@@ -57,6 +57,9 @@ struct LitLight
   /// that is not.
   float toward[3] = { 0, 0, 0 };
   float place[3] = { 0, 0, 0 };
+  /// Index space to the world, as seen from a light that is not at infinity; its `source` is at the
+  /// origin, so that nothing cancels far from the world's own.
+  float offset_from_index[12]{};
   /// Optical depths toward it, of channels that are 1, or of R, G and B apart (LitTask::maps).
   LightGrid depth[3];
   ShadowFunctions functions[3];
@@ -97,6 +100,7 @@ struct LitFrame
   float data_from_index[9]{}; ///< row-major, for lengths
   float lower[3]{};       ///< the box that is drawn: the grid's, cut by a box of cropping
   float upper[3]{};
+  float rounding[3]{}; ///< what places are off by: as far outside of a face still counts as on it
   std::vector<glm::vec4> planes; ///< half spaces a x + b y + c z + d ≥ 0 of its index space
   bool cropped = false;          ///< by other regions than that box
   float crop_lower[3]{};
@@ -141,6 +145,10 @@ struct LitTask
   int maps = 1;
   float channels[3] = { 1, 1, 1 };
   float world_from_index[12]{};
+  bool components = false; ///< Mixture::Components, of several volumes
+  /// Depths that no light comes through, by the thinnest octave and the thinnest channel.
+  float deep_enough = 30.0f;
+  bool has_channel[3] = { true, true, true }; ///< whether any volume dims R, G, B
   bool absorption = true;
   // What has to be compiled for.
   bool chromatic = false; ///< channels differ

@@ -21,7 +21,8 @@ struct VolumeTask
 {
   ValueMeaning meaning = ValueMeaning::Classified;
   FieldView field;
-  const VisibleBricks* bricks = nullptr; ///< null: nothing to leap over
+  const VisibleBricks* visible = nullptr; ///< null: all of them
+  const VisibleBricks* bricks = nullptr;  ///< the same, for leaping; null: nothing to leap over
   float extinction = 1.0f; ///< density grids: per unit of density and of the data's length
   float largest = 0.0f;    ///< density grids: value
   float weight = 1.0f;     ///< classified grids: a factor on the table's extinction

@@ -200,7 +200,8 @@ public:
     task.meaning = volume.meaning;
     task.field =
       view_field(volume.grid, volume.grid.component, non_finite, this->empty_value(volume));
-    task.bricks = this->Visible.visible < this->Ranges->size() ? &this->Visible : nullptr;
+    task.visible = this->Visible.visible < this->Ranges->size() ? &this->Visible : nullptr;
+    task.bricks = task.visible;
     task.weight = static_cast<float>(volume.weight);
     if (volume.meaning == ValueMeaning::Density)
     {

@@ -72,8 +72,8 @@ struct MarchSettings
   /// map, in the data's units. 0: one voxel edge; rays through one density then go cell by cell, which
   /// is exact.
   double shadow_step = 0.0;
-  /// Light volumes of 32-bit floats in place of 16 bits (of which each is 20 / 65535 of optical depth
-  /// or less).
+  /// Light volumes of 32-bit floats in place of 16 bits (of which each is 80 / 65535 of optical depth
+  /// or less; where it would be more, 32 bits are taken anyway).
   bool precise_shadows = false;
   /// Whether the media dim what is behind them (Effect::Absorption), and whether bricks that hold
   /// nothing are leapt over. Other effects are left out by leaving them out of the scene

@@ -425,7 +425,8 @@ void store(const MarchTask& task,
       film.transmittance[c][pixel] = transmittance;
     }
     film.depth[pixel] = half_way[lane];
-    film.error[pixel] = task.step_error + error[lane] + left[lane] * task.brightest;
+    film.error[pixel] =
+      task.step_error + error[lane] + (left[lane] > 0.0f ? left[lane] * task.brightest : 0.0f);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -44,9 +45,43 @@ void validate(const Classification& c, const Grid& grid)
     "a transfer function needs at least 2 nodes, and as many colours");
 }
 
+void validate(const Medium& medium, const Grid& grid)
+{
+  const auto fraction = [](double v) { return v >= 0.0 && v <= 1.0; };
+  const auto finite = [](double v) { return v >= 0.0 && std::isfinite(v); };
+  const Octaves& octaves = medium.octaves;
+  require(octaves.count >= 1 && octaves.count <= most_octaves, "a medium has 1 to 16 octaves");
+  require(fraction(octaves.attenuation) && fraction(octaves.contribution) &&
+      fraction(octaves.anisotropy) && octaves.contribution <= octaves.attenuation,
+    "octaves need an attenuation, contribution and anisotropy from 0 to 1, and a contribution of no "
+    "more than the attenuation: more would make light from nothing");
+  for (int c = 0; c < 3; ++c)
+  {
+    require(fraction(medium.albedo[c]), "an albedo must be from 0 to 1");
+    require(finite(medium.emission[c]), "emission must be finite and not negative");
+  }
+  for (const PhaseLobe& lobe : medium.lobes)
+  {
+    require(finite(lobe.weight), "a lobe's weight must be finite and not negative");
+  }
+  require(finite(medium.black_body), "the scale of black bodies must be finite and not negative");
+  const Grid& temperature = medium.temperature;
+  if (medium.black_body > 0.0 && temperature.voxels)
+  {
+    temperature.validate();
+    require(!grid.sparse && temperature.type != VoxelType::Float16 &&
+        std::equal(grid.dims, grid.dims + 3, temperature.dims),
+      "temperatures must be a dense grid of the same size as their volume's");
+  }
+}
+
 void validate(const Volume& volume)
 {
   volume.grid.validate();
+  if (volume.medium.lit)
+  {
+    validate(volume.medium, volume.grid);
+  }
   require(volume.weight >= 0.0 && std::isfinite(volume.weight),
     "a volume's weight must be finite and not negative");
   if (volume.meaning == ValueMeaning::Density)
@@ -54,6 +89,11 @@ void validate(const Volume& volume)
     require(volume.grid.components == 1, "a density is a grid of one component");
     require(volume.density.extinction >= 0.0 && std::isfinite(volume.density.extinction),
       "the extinction must be finite and not negative");
+    for (int c = 0; c < 3; ++c)
+    {
+      require(volume.density.channels[c] >= 0.0 && volume.density.channels[c] <= 1.0,
+        "each channel of a density has from 0 to 1 of the extinction");
+    }
     return;
   }
   validate(volume.classification, volume.grid);

@@ -14,6 +14,8 @@
 
 #include <hwy/aligned_allocator.h>
 
+#include <algorithm>
+
 HWY_BEFORE_NAMESPACE();
 namespace brume
 {
@@ -63,15 +65,6 @@ public:
     {
       Functions = field_functions(volumes[0].field);
     }
-    double thinnest = 1.0;
-    for (const LitVolume& volume : lit.volumes)
-    {
-      for (const LitVolume::Octave& octave : volume.octaves)
-      {
-        thinnest = std::min(thinnest, std::max(double(octave.attenuation), 1e-3));
-      }
-    }
-    DeepEnough = static_cast<float>(30.0 / thinnest);
   }
 
   /// Straight ways from places on, as each volume has them. Positions along them are in units of the
@@ -124,6 +117,9 @@ public:
   add(const Ways& ways, Real from, Real to, Mask active, Vec3<Real>& result) const
   {
     std::uint64_t samples = 0;
+    const Real zero = hn::Zero(float_tag);
+    Vec3<Real> sum{ zero, zero, zero };
+    Vec3<Real> squares = sum;
     for (std::size_t k = 0; k < Volumes.size(); ++k)
     {
       const Real low = max(from, ways.begin[k]);
@@ -142,10 +138,16 @@ public:
       Volumes[k].look(ways.lines[k], middle, (high - low) * ways.length[k], here, matter);
       samples += hn::CountTrue(float_tag, here);
       const Real depth = hn::IfThenElseZero(here, matter.depth);
-      result = Lit.maps == 1
-        ? Vec3<Real>{ result.x + depth, result.y, result.z }
-        : result + broadcast3<Real>(Lit.volumes[k].channels) * depth;
+      const Vec3<Real> part = Lit.maps == 1 ? Vec3<Real>{ depth, zero, zero }
+                                            : broadcast3<Real>(Lit.volumes[k].channels) * depth;
+      sum = sum + part;
+      squares = squares + part * part;
     }
+    if (Lit.components)
+    {
+      sum = { mixed(sum.x, squares.x), mixed(sum.y, squares.y), mixed(sum.z, squares.z) };
+    }
+    result = result + sum;
     return samples;
   }
 
@@ -167,33 +169,49 @@ public:
     return Lit.by_cells ? by_cells(ways, result) : by_steps(ways, result);
   }
 
+  /// Mixture::Components: of depths that add up to Σ the sum of squares over Σ is taken.
+  static HWY_INLINE Real mixed(Real sum, Real squares)
+  {
+    const Mask some = sum > real(1e-18f); // squares of less are nothing
+    return hn::IfThenElse(some, squares / hn::IfThenElse(some, sum, real(1.0f)), sum);
+  }
+
 private:
   /// Cuts [begin, end] to what a volume draws, but for its odder regions of cropping.
   static HWY_INLINE void cut(const LitFrame& frame, const Line& line, Real& begin, Real& end)
   {
     const Real* p[3] = { &line.begin.x, &line.begin.y, &line.begin.z };
     const Real* d[3] = { &line.delta.x, &line.delta.y, &line.delta.z };
+    // Slopes below this are rounding: the way is along the face.
+    const Real still = real(1e-6f) *
+      max(hn::Abs(line.delta.x), max(hn::Abs(line.delta.y), hn::Abs(line.delta.z)));
     for (int axis = 0; axis < 3; ++axis)
     {
-      cut_half_space(*p[axis] - real(frame.lower[axis]), *d[axis], begin, end);
-      cut_half_space(real(frame.upper[axis]) - *p[axis], hn::Neg(*d[axis]), begin, end);
+      const Real least = real(-frame.rounding[axis]);
+      cut_half_space(*p[axis] - real(frame.lower[axis]), *d[axis], still, least, begin, end);
+      cut_half_space(
+        real(frame.upper[axis]) - *p[axis], hn::Neg(*d[axis]), still, least, begin, end);
     }
-    for (const glm::vec4& plane : frame.planes)
+    for (const glm::vec4& plane : frame.planes) // their normals have the length 1
     {
       const float normal[3] = { plane.x, plane.y, plane.z };
       const Vec3<Real> n = broadcast3<Real>(normal);
-      cut_half_space(dot(n, line.begin) + real(plane.w), dot(n, line.delta), begin, end);
+      const Real least =
+        real(-std::max({ frame.rounding[0], frame.rounding[1], frame.rounding[2] }));
+      cut_half_space(
+        dot(n, line.begin) + real(plane.w), dot(n, line.delta), still, least, begin, end);
     }
   }
-  /// To where height + slope · t ≥ 0.
-  static HWY_INLINE void cut_half_space(Real height, Real slope, Real& begin, Real& end)
+  /// To where height + slope · t ≥ 0; of a way that keeps its height, all of it from `least` on.
+  static HWY_INLINE void cut_half_space(
+    Real height, Real slope, Real least_slope, Real least, Real& begin, Real& end)
   {
     const Real zero = hn::Zero(float_tag);
-    const Mask still = hn::Abs(slope) < real(1e-30f);
+    const Mask still = hn::Abs(slope) <= least_slope;
     const Real at = hn::Neg(height) / hn::IfThenElse(still, real(1.0f), slope);
     begin = hn::IfThenElse(hn::AndNot(still, slope > zero), max(begin, at), begin);
     end = hn::IfThenElse(hn::AndNot(still, slope < zero), hn::Min(end, at), end);
-    end = hn::IfThenElse(hn::And(still, height < zero), begin, end);
+    end = hn::IfThenElse(hn::And(still, height < least), begin, end);
   }
 
   std::uint64_t by_steps(const Ways& ways, Vec3<Real>& result) const
@@ -232,8 +250,20 @@ private:
       samples += add(ways, hn::MulAdd(at, step, ways.first),
         hn::MulAdd(at + one, step, ways.first), active, result);
       at = at + one;
-      stop = hn::IfThenZeroElse(result.x > real(DeepEnough), stop);
+      stop = hn::IfThenZeroElse(shallowest(result) > real(Lit.deep_enough), stop);
     }
+  }
+
+  /// The least depth of the channels that anything dims.
+  HWY_INLINE Real shallowest(const Vec3<Real>& depth) const
+  {
+    if (Lit.maps == 1)
+    {
+      return depth.x;
+    }
+    const Real far = real(3e38f);
+    return hn::Min(Lit.has_channel[0] ? depth.x : far,
+      hn::Min(Lit.has_channel[1] ? depth.y : far, Lit.has_channel[2] ? depth.z : far));
   }
 
   /// Whether the region of cropping that a place lies in is drawn.
@@ -308,14 +338,13 @@ private:
       }
       samples += 2 * cells_at_once * hn::CountTrue(float_tag, active);
       at = hn::IfThenElse(active, ends[cells_at_once], at);
-      stop = hn::IfThenZeroElse(sum.total > real(DeepEnough), stop);
+      stop = hn::IfThenZeroElse(sum.total > real(Lit.deep_enough), stop);
     }
   }
 
   const LitTask& Lit;
   std::vector<MatterVolume> Volumes;
   FieldFunctions Functions{};
-  float DeepEnough;
 };
 
 /// Optical depths toward the lights at positions of a packet's view rays.
@@ -454,7 +483,7 @@ private:
     }
     const Real mean = lerp(lerp(passes[0][0], passes[0][1], fraction[0]),
       lerp(passes[1][0], passes[1][1], fraction[0]), fraction[1]);
-    return hn::Neg(hn::Log(float_tag, max(mean, real(1e-12f))));
+    return hn::Neg(hn::Log(float_tag, max(mean, real(1e-7f)))); // as deep as sweeps look
   }
 
   const LitTask& Lit;

@@ -193,8 +193,9 @@ ShadowChoice choose_shadows(Marcher& marcher, const Scene& scene, double toleran
     probe.settings().shadow_step = step;
     return probe.march(StepRule::Midpoint, 1.0);
   };
-  // By default rays go cell by cell where they can; otherwise by steps, which are found first.
-  const Film truth = with(ShadowMethod::Rays, 0.0);
+  // Cell by cell where rays can, else by steps half as long as those of light volumes.
+  const bool exact = has_exact_shadow_rays(scene);
+  const Film truth = with(ShadowMethod::Rays, exact ? 0.0 : 0.5 * edge);
   double nodes = 0.0;
   for (const Volume& volume : scene.volumes)
   {
@@ -207,9 +208,11 @@ ShadowChoice choose_shadows(Marcher& marcher, const Scene& scene, double toleran
     nodes += cells;
   }
   double spacing = std::cbrt(nodes * lights / nodes_of_a_picture);
-  spacing = std::clamp(std::exp2(std::ceil(2.0 * std::log2(spacing)) / 2.0), 0.25, 4.0);
+  spacing = std::max(std::exp2(std::ceil(2.0 * std::log2(spacing)) / 2.0), 0.25);
   const bool volumes = tolerance >= least_of_volumes;
-  for (; volumes && nodes / (spacing * spacing * spacing) < nodes_at_most; spacing *= 0.5)
+  for (bool first = true;
+       volumes && (first || nodes / (spacing * spacing * spacing) < nodes_at_most);
+       spacing *= 0.5, first = false)
   {
     const double error =
       unseen_shadows * probe.change(with(ShadowMethod::Volume, spacing * edge), truth);
@@ -228,12 +231,12 @@ ShadowChoice choose_shadows(Marcher& marcher, const Scene& scene, double toleran
   }
   choice.method = ShadowMethod::Rays;
   choice.precise = true; // the sky's light
-  if (has_exact_shadow_rays(scene))
+  if (exact)
   {
     choice.estimated_error = rounding_of_rays;
     return choice;
   }
-  Film longer = truth;
+  Film longer = with(ShadowMethod::Rays, edge);
   for (choice.step = edge;; choice.step *= 0.5)
   {
     Film shorter = with(ShadowMethod::Rays, 0.5 * choice.step);

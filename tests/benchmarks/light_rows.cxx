@@ -65,6 +65,7 @@ struct LitCloud
     this->volume->GetProperty()->SetScalarOpacity(opacity);
     this->volume->GetProperty()->SetColor(colour);
     this->volume->GetProperty()->SetScalarOpacityUnitDistance(1.0);
+    this->volume->GetProperty()->SetInterpolationTypeToLinear();
     for (vtkBrumeRayMarchMapper* mapper : { this->plain.Get(), this->lit.Get() })
     {
       mapper->SetInputData(this->image);

@@ -15,6 +15,8 @@ void add_render_rows(Scenes& scenes, std::vector<Row>& rows);
 void add_machine_rows(Scenes& scenes, std::vector<Row>& rows);
 /// Light in a medium.
 void add_light_rows(Scenes& scenes, std::vector<Row>& rows);
+/// Effects, one by one, and left out.
+void add_effect_rows(Scenes& scenes, std::vector<Row>& rows);
 /// Large and sparse volumes, and memory.
 void add_memory_rows(Scenes& scenes, std::vector<Row>& rows);
 

@@ -76,6 +76,17 @@ TEST(MarchChoices, PlainScenesAreMarchedAsTheyAre)
   EXPECT_EQ(slab.choices.IsToleranceMet(), expected.met);
 }
 
+// However thin: without lit matter pictures are VTK's.
+TEST(MarchChoices, PlansOfPlainScenesLeaveNothingOutThatMatters)
+{
+  Slab slab(false);
+  slab.scene.volumes[0].density.extinction = 1e-5;
+  slab.wanted.tolerance = 0.5;
+  slab.update();
+  EXPECT_TRUE(slab.choices.GetPlan()[Effect::Absorption].on);
+  EXPECT_EQ(slab.choices.GetPlan().error_bound(), 0.0);
+}
+
 TEST(MarchChoices, WhatIsForcedOffIsOutOfTheScene)
 {
   Slab slab;
@@ -166,19 +177,22 @@ TEST(MarchChoices, EffectsThatComeOnChooseStepsAnew)
   slab.scene.lights[0].direction = glm::normalize(glm::dvec3(1.0, 0.3, 0.2));
   slab.wanted.choose_shadows = false;
   slab.wanted.shadows = ShadowMethod::Rays;
-  slab.wanted.forces = { { Effect::Scattering, false } };
+  slab.wanted.forces = { { Effect::Shadows, false } };
   slab.update();
-  const double absorbing = slab.choices.GetSettings().step;
-  slab.wanted.forces = { { Effect::Scattering, true } };
+  const double without = slab.choices.GetSettings().step;
+  slab.wanted.forces = { { Effect::Shadows, true } };
   slab.update();
-  const double lit = slab.choices.GetSettings().step;
+  const double with = slab.choices.GetSettings().step;
   Slab fresh;
   fresh.voxels = slab.voxels;
   fresh.scene.lights = slab.scene.lights;
   fresh.wanted = slab.wanted;
   fresh.update();
-  EXPECT_EQ(lit, fresh.choices.GetSettings().step);
-  EXPECT_NE(lit, absorbing);
+  EXPECT_EQ(with, fresh.choices.GetSettings().step);
+  EXPECT_NE(with, without);
+  slab.wanted.forces = { { Effect::Shadows, false } };
+  slab.update();
+  EXPECT_EQ(slab.choices.GetSettings().step, with);
 }
 
 TEST(MarchChoices, StepsMayBeTheCallers)

@@ -252,6 +252,7 @@ TEST(Medium, LobesAreKeptAsGiven)
   const double weights[] = { 0.5, 1.5, 2.0, 4.0 };
   const double anisotropies[] = { 0.0, 0.0, 0.8, -0.9999 };
   const brume::Medium m = medium_of(medium);
+  ASSERT_EQ(m.lobes.size(), 4u);
   for (int i = 0; i < 4; ++i)
   {
     EXPECT_EQ(medium->GetLobeFunction(i), functions[i]);

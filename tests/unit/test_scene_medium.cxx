@@ -74,7 +74,8 @@ struct Stage
   }
 };
 
-/// A ball with two arrays more: "soot", half of it, and "kelvins" of a type, which grow along x.
+/// A ball with two arrays more: "soot", half of it, and "kelvins" of a type, which grow along x and
+/// y.
 vtkSmartPointer<vtkImageData> burning_ball(int type = VTK_FLOAT, bool cells = false, int nx = 20)
 {
   const auto value = [nx](int i, int j, int k, int)
@@ -92,7 +93,7 @@ vtkSmartPointer<vtkImageData> burning_ball(int type = VTK_FLOAT, bool cells = fa
   };
   other(
     "soot", VTK_UNSIGNED_CHAR, [&](int i, int j, int k, int c) { return 0.5 * value(i, j, k, c); });
-  other("kelvins", type, [](int i, int, int, int) { return 100.0 * (i + 1); });
+  other("kelvins", type, [](int i, int j, int, int) { return 100.0 * (i + 1) + j; });
   return data;
 }
 
@@ -263,7 +264,7 @@ TEST(SceneMedium, TemperaturesLieOnTheVoxelsLattice)
         {
           for (int i = 0; i < t.dims[0]; ++i)
           {
-            EXPECT_EQ(voxels[j * t.dims[0] + i], 100.0f * (std::min(i, nx - 1) + 1));
+            EXPECT_EQ(voxels[j * t.dims[0] + i], 100.0f * (std::min(i, nx - 1) + 1) + j);
           }
         }
         if (type == VTK_FLOAT && nx > 1 && !cells)
