@@ -229,6 +229,47 @@ private:
 
 }
 
+namespace
+{
+
+/// The picture of a frame that is `fine` times as wide and high: mean colours, and of the depths in a
+/// pixel the second nearest, so that a surface counts where it fills half of the pixel and a lone speck
+/// does not.
+SurfacePicture averaged(const VolumeScene& scene, int fine, const std::vector<float>& rgb,
+  const std::vector<float>& depths)
+{
+  SurfacePicture picture;
+  const int samples = fine * fine;
+  std::vector<float> nearest(static_cast<std::size_t>(samples));
+  for (int y = 0; y < scene.height(); ++y)
+  {
+    for (int x = 0; x < scene.width(); ++x)
+    {
+      double sum[3] = { 0.0, 0.0, 0.0 };
+      for (int n = 0; n < samples; ++n)
+      {
+        const std::size_t i = static_cast<std::size_t>(fine * y + n / fine) * fine * scene.width() +
+          static_cast<std::size_t>(fine * x + n % fine);
+        nearest[static_cast<std::size_t>(n)] = depths[i];
+        for (int c = 0; c < 3; ++c)
+        {
+          sum[c] += depths[i] < 1.0f ? rgb[3 * i + c] : scene.options.background[c];
+        }
+      }
+      std::sort(nearest.begin(), nearest.end());
+      const float depth = nearest[samples > 1 ? 1 : 0];
+      picture.depth.push_back(2.0f * depth - 1.0f); // [0, 1] to the clip cube's [-1, 1]
+      for (const double value : sum)
+      {
+        picture.rgb.push_back(static_cast<float>(value / samples));
+      }
+    }
+  }
+  return picture;
+}
+
+}
+
 vtkSmartPointer<vtkPolyData> open_mesh(const std::string& path)
 {
   std::string ending = std::filesystem::path(path).extension().string();
@@ -260,10 +301,9 @@ vtkSmartPointer<vtkPolyData> open_mesh(const std::string& path)
 
 SurfacePicture draw_meshes(const VolumeScene& scene)
 {
-  SurfacePicture picture;
   if (scene.meshes.empty())
   {
-    return picture;
+    return {};
   }
   const PrivateDisplay display;
   if (!display.available())
@@ -280,7 +320,8 @@ SurfacePicture draw_meshes(const VolumeScene& scene)
   window->AddObserver(vtkCommand::ErrorEvent, ear);
   window->SetOffScreenRendering(1);
   window->SetMultiSamples(0); // one depth a pixel
-  window->SetSize(scene.width(), scene.height());
+  const int fine = std::max(scene.width(), scene.height()) <= 4096 ? 2 : 1; // frames have a largest size
+  window->SetSize(fine * scene.width(), fine * scene.height());
   window->AddRenderer(renderer);
   for (vtkPolyData* mesh : scene.meshes)
   {
@@ -291,26 +332,15 @@ SurfacePicture draw_meshes(const VolumeScene& scene)
   renderer->SetBackground(background);
   renderer->AutomaticLightCreationOff();
   renderer->SetActiveCamera(scene.camera);
-  picture.rgb = ManyExposures(window, renderer, scene).draw();
+  const std::vector<float> rgb = ManyExposures(window, renderer, scene).draw();
   if (!error.empty())
   {
     std::replace(error.begin(), error.end(), '\n', ' ');
     throw Failure("--mesh", error, "leave it out");
   }
-  const int right = scene.width() - 1;
-  const int top = scene.height() - 1;
-  picture.depth.resize(static_cast<std::size_t>(scene.width()) * scene.height());
-  window->GetZbufferData(0, 0, right, top, picture.depth.data());
-  for (std::size_t i = 0; i < picture.depth.size(); ++i)
-  {
-    const bool surface = picture.depth[i] < 1.0f;
-    picture.depth[i] = 2.0f * picture.depth[i] - 1.0f; // [0, 1] to the clip cube's [-1, 1]
-    for (int c = 0; c < 3 && !surface; ++c)
-    {
-      picture.rgb[3 * i + c] = static_cast<float>(scene.options.background[c]);
-    }
-  }
-  return picture;
+  std::vector<float> depths(rgb.size() / 3);
+  window->GetZbufferData(0, 0, fine * scene.width() - 1, fine * scene.height() - 1, depths.data());
+  return averaged(scene, fine, rgb, depths);
 }
 
 }
