@@ -72,13 +72,7 @@ FogModel::FogModel(const Scene& scene)
   this->Falloff = fog.falloff;
   this->BaseHeight = fog.base_height;
   this->Phase = prepare_phase(fog.lobes);
-  this->Smallest = infinity;
-  for (int c = 0; c < 3; ++c)
-  {
-    this->Largest = std::max(this->Largest, this->Extinction[c]);
-    this->Smallest =
-      this->Extinction[c] > 0.0 ? std::min(this->Smallest, this->Extinction[c]) : this->Smallest;
-  }
+  this->Largest = std::max({ this->Extinction.x, this->Extinction.y, this->Extinction.z });
   for (const Light& light : scene.lights)
   {
     Lamp lamp;
@@ -92,7 +86,6 @@ FogModel::FogModel(const Scene& scene)
     std::fill(lamp.shape.position, lamp.shape.position + 3, 0.0f);
     this->Lamps.push_back(lamp);
   }
-  this->HalfColumn = this->find_half_column();
 }
 
 FogRay FogModel::ray(const glm::dvec3& origin, const glm::dvec3& direction, double spread) const
@@ -145,9 +138,9 @@ double FogModel::column_between(double begin, double end, double fall, double le
 // amount = f (1 − e^(−b L)) / b, f at `from`, b the falloff along the ray, solved for L.
 double FogModel::place_of_column(const FogRay& ray, double from, double amount) const
 {
-  if (!(amount > 0.0))
+  if (!(amount > 0.0) || amount == infinity)
   {
-    return from;
+    return amount > 0.0 ? infinity : from;
   }
   const double fall = this->Falloff * ray.slope;
   const double begin = this->profile(ray, from);
@@ -298,29 +291,18 @@ glm::dvec3 FogModel::source(const glm::dvec3& place, const glm::dvec3& direction
   return this->Albedo * sum;
 }
 
-double FogModel::find_half_column() const
+double FogModel::half_column(const glm::dvec3& through) const
 {
-  const auto mean = [this](double column)
+  double column = 0.0;
+  for (int c = 0; c < 3; ++c)
   {
-    double sum = 0.0;
-    for (int c = 0; c < 3; ++c)
+    const double depth = std::log(2.0 * through[c]); // that is to come
+    if (depth >= 0.0)
     {
-      sum += std::exp(-times(this->Extinction[c], column)) / 3.0;
+      column = this->Extinction[c] > 0.0 ? std::max(column, depth / this->Extinction[c]) : infinity;
     }
-    return sum;
-  };
-  if (!(this->Largest > 0.0) || !(mean(infinity) < 0.5))
-  {
-    return infinity;
   }
-  double lower = 0.0;
-  double upper = std::log(6.0) / this->Smallest;
-  for (int i = 0; i < 100; ++i)
-  {
-    const double middle = 0.5 * (lower + upper);
-    (mean(middle) > 0.5 ? lower : upper) = middle;
-  }
-  return upper;
+  return column;
 }
 
 }

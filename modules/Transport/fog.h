@@ -111,8 +111,9 @@ public:
   /// What a place sends along `direction`, by unit of optical depth of the fog there.
   glm::dvec3 source(const glm::dvec3& place, const glm::dvec3& direction) const;
 
-  /// The column at which the mean of the channels' transmittances is ½; +infinity where it never is.
-  double half_column() const { return this->HalfColumn; }
+  /// The column behind which no channel has more than half of the light left, where `through` is left
+  /// before it; +infinity where there is none.
+  double half_column(const glm::dvec3& through = glm::dvec3(1.0)) const;
 
 private:
   struct Lamp
@@ -131,7 +132,6 @@ private:
   /// Of a stretch between two places of these profiles; the falloff along it is ±`fall`.
   static double column_between(double begin, double end, double fall, double length);
   double lamp_column(const Lamp& lamp, double profile, const glm::dvec3& offset) const;
-  double find_half_column() const;
   friend class FogLampIntegral;
 
   glm::dvec3 Extinction{ 0.0 };
@@ -141,9 +141,7 @@ private:
   glm::dvec3 Ground{ 0.0 };
   double Falloff = 0.0;
   double BaseHeight = 0.0;
-  double Largest = 0.0;  ///< of the channels' extinctions
-  double Smallest = 0.0; ///< of those that are not 0
-  double HalfColumn = 0.0;
+  double Largest = 0.0; ///< of the channels' extinctions
   PhaseModel Phase;
   std::vector<Lamp> Lamps;
 };

@@ -95,45 +95,22 @@ private:
       return;
     }
     const FogRay& ray = this->Ray[lane];
-    const glm::dvec3 depth = this->Fog.optical_depth(ray, from, to);
+    const double column = this->Fog.column(ray, from, to);
+    const glm::dvec3 depth = this->Fog.optical_depth(column);
     const glm::dvec3 radiance = this->Fog.radiance(ray, from, to);
     gap.here[lane] = 1.0f;
-    bool before = false; // whether more than half passes, in any channel
-    bool behind = false;
     for (int c = 0; c < 3; ++c)
     {
       gap.depth[c][lane] = static_cast<float>(std::min(depth[c], 1e30));
       gap.radiance[c][lane] = static_cast<float>(radiance[c]);
-      before = before || through[c][lane] >= 0.5f;
-      behind = behind || through[c][lane] * std::exp(-depth[c]) >= 0.5;
     }
+    const double half = this->Fog.half_column({ through[0][lane], through[1][lane], through[2][lane] });
     gap.half_way[lane] = std::numeric_limits<float>::infinity();
-    if (before && !behind)
+    if (half > 0.0 && half < column)
     {
-      gap.half_way[lane] =
-        static_cast<float>(std::max(0.0, this->half_way(lane, to, through) - this->NearPlane[lane]));
+      const double way = this->Fog.place_of_column(ray, from, half) - this->NearPlane[lane];
+      gap.half_way[lane] = static_cast<float>(std::max(0.0, way));
     }
-  }
-
-  /// Where no channel lets pass more than half.
-  double half_way(int lane, double to, const float (*through)[lane_count]) const
-  {
-    const FogRay& ray = this->Ray[lane];
-    const double from = this->At[lane];
-    double lower = 0.0;
-    double upper = std::min(this->Fog.column(ray, from, to), 1e300);
-    for (int i = 0; i < 60; ++i)
-    {
-      const double middle = 0.5 * (lower + upper);
-      const glm::dvec3 depth = this->Fog.optical_depth(middle);
-      bool more = false;
-      for (int c = 0; c < 3; ++c)
-      {
-        more = more || through[c][lane] * std::exp(-depth[c]) >= 0.5;
-      }
-      (more ? lower : upper) = middle;
-    }
-    return this->Fog.place_of_column(ray, from, upper);
   }
 
   const FogModel& Fog;

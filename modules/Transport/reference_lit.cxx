@@ -79,23 +79,14 @@ void pass_fog(const FogModel& fog, const PixelRay& ray, double from, double to, 
   {
     return;
   }
-  const double before = result.passes();
-  result.radiance += result.transmittance * fog.radiance(ray.fog, from, to);
-  const glm::dvec3 begin = result.transmittance;
-  result.transmittance *= fog.transmittance(ray.fog, from, to);
-  if (before >= 0.5 && result.passes() < 0.5 && std::isinf(result.half_way))
+  const double half = fog.half_column(result.transmittance);
+  if (half < fog.column(ray.fog, from, to) && std::isinf(result.half_way))
   {
-    double near_end = 0.0;
-    double far_end = std::min(fog.column(ray.fog, from, to), 1e300);
-    for (int i = 0; i < 200; ++i)
-    {
-      const double middle = 0.5 * (near_end + far_end);
-      const glm::dvec3 passes = begin * glm::exp(-fog.optical_depth(middle));
-      (std::max({ passes.x, passes.y, passes.z }) < 0.5 ? far_end : near_end) = middle;
-    }
-    const double way = fog.place_of_column(ray.fog, from, far_end) - ray.fog_near_plane;
+    const double way = fog.place_of_column(ray.fog, from, half) - ray.fog_near_plane;
     result.half_way = ray.world_length > 0.0 ? std::max(way, 0.0) / ray.world_length : 0.0;
   }
+  result.radiance += result.transmittance * fog.radiance(ray.fog, from, to);
+  result.transmittance *= fog.transmittance(ray.fog, from, to);
 }
 
 class LitRay final : public RayIntegral

@@ -4,6 +4,7 @@
 #include "../support/transport_scenes.h"
 
 #include "Transport/marcher.h"
+#include "Transport/reference.h"
 
 #include <boost/math/special_functions/expint.hpp>
 
@@ -98,7 +99,8 @@ struct World
     scene.camera = view.camera(1.0);
   }
 
-  Film march(ShadowMethod shadows = ShadowMethod::Rays, double step = 0.02)
+  Film march(
+    ShadowMethod shadows = ShadowMethod::Rays, double step = 0.02, double shadow_step = 0.04)
   {
     make_volumes();
     Film film(edge, edge);
@@ -107,7 +109,7 @@ struct World
     settings.step = step;
     settings.leave_error = 0.0;
     settings.shadows = shadows;
-    settings.shadow_step = shadows == ShadowMethod::Rays ? 0.0 : 0.04;
+    settings.shadow_step = shadows == ShadowMethod::Rays ? 0.0 : shadow_step;
     settings.precise_shadows = true;
     marcher.render(scene, settings, film);
     return film;
@@ -174,11 +176,11 @@ struct World
     return std::any_of(boxes.begin(), boxes.end(), [&](const Box& box) { return box.holds(p); });
   }
 
-  /// What is sent at p along a ray's way back, by unit of length.
-  double sent(int c, const dvec3& p, const dvec3& direction) const
+  /// What is sent at p along a ray's way back, by unit of length. Volumes begin at the near plane.
+  double sent(int c, const dvec3& p, const dvec3& direction, bool behind_near_plane) const
   {
     const double fog_here = fog(c, p, direction).at(0.0);
-    const bool shaded = in_box(p);
+    const bool shaded = behind_near_plane && in_box(p);
     const double falloff = scene.fog.falloff;
     double sum = 0.0;
     const auto volume_depth = [&](const dvec3& way, double to)
@@ -215,7 +217,7 @@ struct World
         std::exp(-matter);
       for (const Box& box : boxes)
       {
-        for (int m = 0; m < box.octaves && box.lit && box.holds(p); ++m)
+        for (int m = 0; m < box.octaves && box.lit && shaded && box.holds(p); ++m)
         {
           const double thinner = std::pow(0.5, m);
           sum += box.extinction[c] * box.at(p) * box.albedo[c] * irradiance * thinner *
@@ -239,7 +241,7 @@ struct World
     sum += fog_here * scene.fog.albedo[c] * around;
     for (const Box& box : boxes)
     {
-      if (box.holds(p))
+      if (shaded && box.holds(p))
       {
         sum += box.extinction[c] * box.at(p) * (box.lit ? box.albedo[c] * around : box.colour[c]);
       }
@@ -271,7 +273,7 @@ struct World
       }
       return sum;
     };
-    std::vector<double> places;
+    std::vector<double> places{ nearest };
     for (const Box& box : boxes)
     {
       double from = nearest;
@@ -290,7 +292,7 @@ struct World
       [&](double s)
       {
         const double passes = std::exp(-depth(s));
-        return passes > 1e-12 ? passes * sent(c, eye + direction * s, direction) : 0.0;
+        return passes > 1e-12 ? passes * sent(c, eye + direction * s, direction, s > nearest) : 0.0;
       },
       0.0, end, places);
     return { radiance, std::exp(-depth(end)) };
@@ -491,7 +493,7 @@ TEST(FogAndVolumes, DepthIsWhereHalfIsAbsorbed)
   world.for_some_pixels(
     [&](std::size_t pixel, int x, int y, int)
     {
-      ASSERT_TRUE(std::isfinite(film.depth[pixel]));
+      ASSERT_TRUE(std::isfinite(film.depth[pixel])) << film.depth[pixel] << ' ' << film.transmittance[0][pixel];
       const double along = film.depth[pixel]; // from the near plane
       long double near_point[3], far_point[3];
       world.view.ray(x, y, edge, edge, near_point, far_point);
@@ -516,6 +518,41 @@ TEST(FogAndVolumes, DepthIsWhereHalfIsAbsorbed)
   EXPECT_GT(in_front, 0);
 }
 
+TEST(FogAndVolumes, TheReferenceDrawsThemToo)
+{
+  for (int how = 0; how < 2; ++how)
+  {
+    World world;
+    world.boxes = { cloud(), tissue() };
+    world.boxes[0].octaves = 2;
+    world.scene.fog.extinction = dvec3(0.05, 0.07, 0.1);
+    world.scene.fog.falloff = how == 0 ? 0.3 : 0.0;
+    world.scene.sky.radiance = dvec3(0.2);
+    world.scene.sky.ground = dvec3(0.1);
+    world.make_volumes();
+    Film film(edge, edge);
+    ReferenceSettings settings;
+    settings.tolerance = 1e-6;
+    EXPECT_TRUE(render_reference(world.scene, settings, film).completed);
+    EXPECT_LT(world.worst(film), 2e-4) << how;
+    const Film marched = world.march();
+    EXPECT_LT(difference(film, marched), 2e-3) << how;
+    for (std::size_t i = 0; i < film.size(); ++i)
+    {
+      ASSERT_NEAR(marched.depth[i], film.depth[i], 0.05);
+    }
+  }
+  // Without volumes.
+  World world;
+  world.scene.volumes.clear();
+  Film film(edge, edge);
+  EXPECT_TRUE(render_reference(world.scene, {}, film).completed);
+  Film marched(edge, edge);
+  Marcher().render(world.scene, {}, marched);
+  EXPECT_TRUE(same_bits(film, marched));
+  EXPECT_LT(world.worst(film), 1e-5);
+}
+
 /// Dense fog, far away, steep layers: nothing that is not a number.
 TEST(FogAndVolumes, StayFinite)
 {
@@ -535,7 +572,7 @@ TEST(FogAndVolumes, StayFinite)
         lamp.position = dvec3(0.0, 0.0, 2.0);
         world.scene.lights.push_back(lamp);
         world.scene.sky.radiance = world.scene.sky.ground = dvec3(1.0);
-        const Film film = world.march(ShadowMethod::Volume, 0.3);
+        const Film film = world.march(ShadowMethod::Volume, 0.3, 0.5);
         ASSERT_TRUE(all_finite(film)) << extinction << ' ' << falloff << ' ' << height;
         for (std::size_t i = 0; i < film.size(); ++i)
         {

@@ -116,11 +116,11 @@ TEST(FogFilm, PixelsAreTheFogAlongTheirRays)
           if (std::isfinite(film.depth[pixel]))
           {
             const glm::dvec3 half = fog.transmittance(ray, 0.0, film.depth[pixel] + near_plane);
-            ASSERT_NEAR((half.x + half.y + half.z) / 3.0, 0.5, loose);
+            ASSERT_NEAR(std::max({ half.x, half.y, half.z }), 0.5, loose);
           }
           else
           {
-            ASSERT_GE((t.x + t.y + t.z) / 3.0, 0.5 - 1e-6);
+            ASSERT_GE(std::max({ t.x, t.y, t.z }), 0.5 - 1e-6);
           }
         }
       }
