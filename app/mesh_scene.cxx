@@ -1,6 +1,7 @@
 #include "mesh_scene.h"
 
 #include "command.h"
+#include "mesh_check.h"
 #include "private_display.h"
 #include "volume_scene.h"
 
@@ -73,6 +74,14 @@ vtkSmartPointer<vtkPolyData> read(const std::string& path)
       path, "it holds no surface that can be read", "name a whole .vtp, .ply, .stl or .obj file");
   }
   return mesh;
+}
+
+void require_whole(const std::string& path, const std::string& wrong)
+{
+  if (!wrong.empty())
+  {
+    throw Failure(path, wrong, "name a whole .vtp, .ply, .stl or .obj file");
+  }
 }
 
 vtkSmartPointer<vtkPolyData> with_normals(vtkPolyData* mesh)
@@ -240,10 +249,13 @@ vtkSmartPointer<vtkPolyData> open_mesh(const std::string& path)
   {
     throw Failure(path, "it cannot be read", "name a file that you may read");
   }
-  return with_normals(ending == ".vtp" ? read<vtkXMLPolyDataReader>(path)
-      : ending == ".ply"               ? read<vtkPLYReader>(path)
-      : ending == ".stl"               ? read<vtkSTLReader>(path)
-                                       : read<vtkOBJReader>(path));
+  require_whole(path, ending == ".ply" ? check_ply(path) : ending == ".obj" ? check_obj(path) : "");
+  const vtkSmartPointer<vtkPolyData> mesh = ending == ".vtp" ? read<vtkXMLPolyDataReader>(path)
+    : ending == ".ply"                                       ? read<vtkPLYReader>(path)
+    : ending == ".stl"                                       ? read<vtkSTLReader>(path)
+                                                             : read<vtkOBJReader>(path);
+  require_whole(path, check_surface(mesh));
+  return with_normals(mesh);
 }
 
 SurfacePicture draw_meshes(const VolumeScene& scene)

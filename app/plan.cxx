@@ -10,6 +10,8 @@
 #include "atomic_file.h"
 
 #include "Transport/effect_plan.h"
+#include "Transport/effects.h"
+#include "Transport/fog.h"
 #include "Transport/marcher.h"
 
 #include "vtkBrumeEffectPlan.h"
@@ -60,8 +62,11 @@ EffectPlan make_plan(const VolumeScene& scene)
   {
     throw Failure(scene.options.input, "it cannot be drawn", words_of_vtk(error));
   }
+  // As the mapper does: of pictures that VTK draws too, nothing that changes a pixel is left out.
+  const bool lit = has_fog(*plain) || std::any_of(plain->volumes.begin(), plain->volumes.end(),
+                                        [](const Volume& v) { return v.medium.lit; });
   Marcher marcher;
-  const EffectPlan plan = plan_effects(marcher, *plain, scene.options.tolerance,
+  const EffectPlan plan = plan_effects(marcher, *plain, lit ? scene.options.tolerance : 0.0,
     mapper->GetEffectPlan()->GetForces(), scene.options.threads);
   InterruptionWatch::check(scene.options.input.c_str());
   return plan;
@@ -78,25 +83,41 @@ std::string bound_text(const PlannedEffect& effect)
   return out.str();
 }
 
+/// What an effect that is on costs, as a part of a picture by emission and absorption; empty where it
+/// is off or costs nothing of its own.
+std::string cost_text(const PlannedEffect& effect)
+{
+  const double cost = effect_cost(effect.effect);
+  if (!effect.on || cost == 0.0)
+  {
+    return "-";
+  }
+  std::ostringstream out;
+  out << std::fixed << std::setprecision(2) << cost;
+  return out.str();
+}
+
 /// A table for people: an effect a line, the reason last.
 std::string table(const EffectPlan& plan, double tolerance)
 {
   std::ostringstream out;
   const auto line = [&](const std::string& name, const std::string& state, const std::string& bound,
-                      const std::string& reason)
+                      const std::string& cost, const std::string& reason)
   {
     out << std::left << std::setw(21) << name << std::setw(13) << state << std::setw(10) << bound
-        << reason << '\n';
+        << std::setw(6) << cost << reason << '\n';
   };
-  line("effect", "simulated", "error", "reason");
+  line("effect", "simulated", "error", "cost", "reason");
   for (const PlannedEffect& effect : plan.effects)
   {
     line(effect_name(effect.effect),
       std::string(effect.on ? "yes" : "no") + (effect.forced ? ", forced" : ""), bound_text(effect),
-      effect.reason);
+      cost_text(effect), effect.reason);
   }
-  out << "What is left out changes a pixel by " << std::setprecision(2) << plan.error_bound()
-      << " of white at the most; tolerance " << tolerance << ".\n";
+  out << std::setprecision(2) << "What is left out changes a pixel by " << plan.error_bound()
+      << " of white at the most; tolerance " << tolerance
+      << ".\nThe picture is expected to take " << plan.expected_cost()
+      << " times as long as by emission and absorption with the same steps.\n";
   return out.str();
 }
 
@@ -107,11 +128,12 @@ nlohmann::ordered_json to_json(const EffectPlan& plan, const VolumeScene& scene)
   {
     effects.push_back({ { "name", effect_name(effect.effect) }, { "on", effect.on },
       { "forced", effect.forced }, { "reason", effect.reason },
-      { "error_bound", effect.error_bound } });
+      { "error_bound", effect.error_bound },
+      { "cost", effect.on ? effect_cost(effect.effect) : 0.0 } });
   }
   return { { "format", "brume-plan" }, { "version", 1 }, { "input", scene.options.input },
     { "tolerance", scene.options.tolerance }, { "error_bound", plan.error_bound() },
-    { "effects", effects } };
+    { "expected_cost", plan.expected_cost() }, { "effects", effects } };
 }
 
 void run(const Options& options)

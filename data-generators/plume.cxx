@@ -95,7 +95,7 @@ Plume::State Plume::at(const glm::dvec3& place, double time) const
   const double top = smooth_ramp(p.z, 1.95, 1.3);
   const double density = thinning * saturate(5.0 * (f * (0.8 * noise + 0.12) - 0.2)) * border * top;
   const double heat =
-    thinning * thinning * saturate(2.0 * f) * (0.4 + 0.6 * noise) * border * top;
+    saturate(1.7 * thinning) * saturate(2.0 * f) * (0.4 + 0.6 * noise) * border * top;
   return { static_cast<float>(density),
     static_cast<float>(o.air_temperature + (o.source_temperature - o.air_temperature) * heat) };
 }

@@ -32,8 +32,8 @@ struct PlumeOptions
 /// Taylor and Turner, Turbulent gravitational convection, 1956). With d the distance from the axis,
 /// f = 1 − d²/r² and n in [0, 1] a noise of billows and gradients (cumulus.h), warped more the higher,
 ///   density     = q sat(5 (f (0.8 n + 0.12) − 0.2)),     q = r(0) / r(z)
-///   temperature = air + (source − air) q² sat(2 f) (0.4 + 0.6 n)
-/// where q, and its square, stand for the smoke's thinning by mixing. Density is in [0, 1] without a
+///   temperature = air + (source − air) sat(1.7 q) sat(2 f) (0.4 + 0.6 n)
+/// where q stands for the smoke's thinning by mixing, and 1.7 for its burning a little above the source. Density is in [0, 1] without a
 /// unit: multiply by an extinction (4 to 20 per metre for the default width).
 ///
 /// Density is exactly 0 within 0.02 width of the box's faces, and outside the box; temperature there

@@ -627,7 +627,9 @@ void vtkBrumeVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
   this->Internal->Window = nullptr;
   for (vtkVolume* other : others)
   {
-    vtkBrumeVolumeMapper::SafeDownCast(other->GetMapper())->Statistics = this->Statistics;
+    auto* mapper = vtkBrumeVolumeMapper::SafeDownCast(other->GetMapper());
+    mapper->Statistics = this->Statistics;
+    mapper->Internal->Plan->SetPlan(this->Internal->Plan->GetPlan());
   }
   if (!completed)
   {

@@ -213,8 +213,8 @@ public:
   ///@}
 
   /**
-   * Which effects the last picture simulated, and why, and what is forced for the next ones. Never
-   * null.
+   * Which effects the last picture simulated, and why, and what is forced for the next ones. Of
+   * volumes that are drawn as one, the first's forces count. Never null.
    */
   vtkBrumeEffectPlan* GetEffectPlan();
 

@@ -153,6 +153,11 @@ void vtkBrumeEffectPlan::SetPlan(const brume::EffectPlan& plan)
   this->Planned = true;
 }
 
+const brume::EffectPlan& vtkBrumeEffectPlan::GetPlan() const
+{
+  return this->Internal->Plan;
+}
+
 void vtkBrumeEffectPlan::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);

@@ -91,6 +91,7 @@ public:
    */
   const std::map<brume::Effect, bool>& GetForces() const;
   void SetPlan(const brume::EffectPlan& plan);
+  const brume::EffectPlan& GetPlan() const;
   ///@}
 #endif
 

@@ -195,6 +195,16 @@ double EffectPlan::error_bound() const
   return sum;
 }
 
+double EffectPlan::expected_cost() const
+{
+  double sum = 0.0;
+  for (const PlannedEffect& planned : this->effects)
+  {
+    sum += planned.on ? effect_cost(planned.effect) : 0.0;
+  }
+  return sum;
+}
+
 EffectPlan settle_effects(const Scene& scene,
   const PlanFigures& figures,
   double tolerance,

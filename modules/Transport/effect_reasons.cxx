@@ -1,5 +1,6 @@
 #include "Transport/effect_reasons.h"
 
+#include "Transport/fog.h"
 #include "Transport/phase.h"
 
 #include <algorithm>
@@ -59,11 +60,6 @@ bool emits(const Volume& volume)
   return medium.lit
            ? medium.emission != black || (medium.black_body > 0.0 && medium.temperature.voxels)
            : volume.meaning == ValueMeaning::Classified;
-}
-
-bool has_fog(const Scene& scene)
-{
-  return scene.fog.enabled && scene.fog.extinction != black;
 }
 
 bool fog_scatters(const Scene& scene)
@@ -276,7 +272,8 @@ std::string figures_of(Effect effect, const Scene& scene, const PlanFigures& fig
                ? "matter sends light by itself"
                : "the transfer functions' colour is the source";
     case Effect::Scattering:
-      return std::to_string(scene.lights.size()) + " lights" +
+      return std::to_string(scene.lights.size()) +
+             (scene.lights.size() == 1 ? " light" : " lights") +
              (has_sky(scene) ? " and the sky" : "") + ", optical depth along the view at most " +
              two_digits(figures.view.deepest);
     case Effect::PhaseAnisotropy:

@@ -39,4 +39,40 @@ const char* effect_name(Effect effect)
   return "";
 }
 
+double effect_cost(Effect effect)
+{
+  // brume-benchmarks --filter effect-: each row less the row without the effect.
+  switch (effect)
+  {
+    case Effect::Absorption:
+      return 0.80;
+    case Effect::Emission:
+      return 0.20;
+    case Effect::Scattering:
+      return 0.12;
+    case Effect::PhaseAnisotropy:
+      return 0.03;
+    case Effect::ColouredExtinction:
+      return 0.58;
+    case Effect::Shadows:
+      return 0.43;
+    case Effect::Ambient:
+      return 0.85;
+    case Effect::Octaves:
+      return 0.31;
+    case Effect::GradientShading:
+      return 1.36;
+    case Effect::SilverLining:
+      return 0.03;
+    case Effect::Powder:
+      return 0.15;
+    case Effect::Fog:
+      return 1.0;
+    case Effect::Surfaces:
+    case Effect::SpaceLeaping:
+      return 0.0;
+  }
+  return 0.0;
+}
+
 }

@@ -29,6 +29,13 @@ constexpr int effect_count = 14;
 /// "absorption", "phase anisotropy", "space leaping", …
 const char* effect_name(Effect effect);
 
+/// What simulating an effect adds to the time of a picture: as a share of the time of emission and
+/// absorption with the same steps, ≥ 0. Measured on a cloud of 256³ densities under one sun
+/// (docs/dev/performance.md); of octaves for four, of shadows for a light volume that is kept, one
+/// light each. More lights and octaves cost as many times. Surfaces and leaping over empty bricks save
+/// time, how much depends on the scene: 0.
+double effect_cost(Effect effect);
+
 /// A set of effects; all, at first.
 class EffectSet
 {

@@ -2,6 +2,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
+#include <glm/vec2.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -147,9 +148,22 @@ std::pair<Part, Part> cut(const Part& part, Energies& energies, const Environmen
   return { a, b };
 }
 
+/// The directions of a row's pixels for the latitude 0.
+std::vector<glm::dvec2> directions_of_columns(const EnvironmentMap& map)
+{
+  std::vector<glm::dvec2> columns(map.width);
+  for (int x = 0; x < map.width; ++x)
+  {
+    columns[x] =
+      glm::dvec2(environment_direction(x + 0.5, 0.5 * map.height, map.width, map.height));
+  }
+  return columns;
+}
+
 /// A light with all that a part sends; none where it is dark.
 void add_light(const Part& part,
   const EnvironmentMap& map,
+  const std::vector<glm::dvec2>& columns,
   const glm::dmat3& world_from_environment,
   std::vector<Light>& lights)
 {
@@ -157,14 +171,19 @@ void add_light(const Part& part,
   glm::dvec3 middle(0.0);
   for (int y = part.y0; y < part.y1; ++y)
   {
-    const double solid_angle = environment_solid_angle(y, map.width, map.height);
+    glm::dvec3 row(0.0);
+    glm::dvec2 across(0.0);
     for (int x = part.x0; x < part.x1; ++x)
     {
-      const glm::dvec3 share = radiance(map, x, y) * solid_angle;
-      irradiance += share;
-      middle += glm::dot(share, luminance_weights) *
-                environment_direction(x + 0.5, y + 0.5, map.width, map.height);
+      const glm::dvec3 pixel = radiance(map, x, y);
+      row += pixel;
+      across += glm::dot(pixel, luminance_weights) * columns[x];
     }
+    const double solid_angle = environment_solid_angle(y, map.width, map.height);
+    const double latitude = pi * ((y + 0.5) / map.height - 0.5);
+    irradiance += solid_angle * row;
+    middle += solid_angle * glm::dvec3(std::cos(latitude) * across,
+                              std::sin(latitude) * glm::dot(row, luminance_weights));
   }
   if (irradiance == glm::dvec3(0.0))
   {
@@ -219,14 +238,15 @@ std::vector<Light> environment_lights(const EnvironmentMap& map,
     keep(a);
     keep(b);
   }
+  const std::vector<glm::dvec2> columns = directions_of_columns(map);
   std::vector<Light> lights;
   for (; !parts.empty(); parts.pop())
   {
-    add_light(parts.top(), map, world_from_environment, lights);
+    add_light(parts.top(), map, columns, world_from_environment, lights);
   }
   for (const Part& part : whole)
   {
-    add_light(part, map, world_from_environment, lights);
+    add_light(part, map, columns, world_from_environment, lights);
   }
   return lights;
 }

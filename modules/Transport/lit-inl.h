@@ -78,8 +78,8 @@ public:
     , Depths(task)
     , Shadows(task.lit->lights.size() * (steps_at_once + 1) * 3)
     , FogDepths(Foggy ? task.lit->lights.size() * 2 : 0)
-    , Strengths(task.lit->lights.size())
-    , Phases(task.lit->lights.size() * PieceCount * most_octaves)
+    , Lamps(Rich ? task.lit->lights.size() * (1 + 3 * lamp_points) : 0)
+    , Phases(task.lit->lights.size() * PieceCount * most_octaves * (Rich ? lamp_points : 1))
     , Functions(field_functions(task.volumes->front().field))
   {
     for (const VolumeTask& volume : *task.volumes)
@@ -198,6 +198,7 @@ public:
   }
 
 private:
+  static constexpr int lamp_points = 3;
   static constexpr int steps_at_once = Single ? samples_between_leaps : 1;
   static constexpr int most_pieces = Single ? 1 : most_volumes + (Foggy ? 1 : 0);
 
@@ -238,13 +239,12 @@ private:
       if (!light.source.positional)
       {
         find_phases(l, broadcast3<Real>(light.source.direction));
-        Strengths.set(l, real(1.0f));
       }
     }
   }
 
   /// Phase functions between a direction of travel and the viewer, octave by octave.
-  HWY_INLINE void find_phases(int l, const Vec3<Real>& travel)
+  HWY_INLINE void find_phases(int l, const Vec3<Real>& travel, int point = 0)
   {
     const Vec3<Real> apart = travel - Viewer;
     const Vec3<Real> together = travel + Viewer;
@@ -257,14 +257,15 @@ private:
       const std::size_t octaves = Rich ? volume.octaves.size() : 1;
       for (std::size_t m = 0; m < octaves && volume.lit; ++m)
       {
-        Phases.set(phase_index(l, k, static_cast<int>(m)),
+        Phases.set(phase_index(l, k, static_cast<int>(m), point),
           phase<Real>(volume.octaves[m].phase, one_minus, one_plus));
       }
     }
   }
-  HWY_INLINE std::size_t phase_index(int l, int k, int m) const
+  HWY_INLINE std::size_t phase_index(int l, int k, int m, int point = 0) const
   {
-    return (static_cast<std::size_t>(l) * PieceCount + k) * most_octaves + m;
+    constexpr int points = Rich ? lamp_points : 1;
+    return ((static_cast<std::size_t>(l) * PieceCount + k) * most_octaves + m) * points + point;
   }
 
   /// Reads the volumes. Returns whether there is anything.
@@ -521,7 +522,7 @@ private:
       {
         if (Lit.lights[l].source.positional)
         {
-          Strengths.set(l, lamp(rays, stretch, l));
+          find_lamp(rays, stretch, l);
         }
       }
     }
@@ -646,21 +647,17 @@ private:
       for (int l = 0; l < LightCount; ++l)
       {
         Channels<Chromatic> light;
-        Real strength;
-        if (Rich)
+        if (Rich && Lit.lights[l].source.positional)
         {
-          strength = Strengths.get(l);
+          of_lamp(l, k, number, dim, light);
         }
         else
         {
-          strength = real(1.0f);
+          of_octaves(l, k, number, dim, passes, light);
         }
-        of_octaves(l, k, number, dim, passes, light);
         for (int c = 0; c < 3; ++c)
         {
-          const Real irradiance = Rich ? strength * real(Lit.lights[l].irradiance[c])
-                                       : real(Lit.lights[l].irradiance[c]);
-          *out[c] = hn::MulAdd(scatter[c] * irradiance, light[c], *out[c]);
+          *out[c] = hn::MulAdd(scatter[c] * real(Lit.lights[l].irradiance[c]), light[c], *out[c]);
         }
       }
     }
@@ -747,54 +744,139 @@ private:
     return transform(Lit.lights[l].offset_from_index, rays.lines[0].at(position));
   }
 
-  /// What a lamp sends to a stretch, and its phase functions there. Where it weakens with the square
-  /// of the distance d, 1 / (a + c d²) is averaged over the stretch in closed form: with b the way
-  /// from the place nearest to the lamp, δ its distance and r² = δ² + a / c,
-  ///     1/h ∫ ds / (c (r² + s²)) = (atan((b + h/2)/r) − atan((b − h/2)/r)) / (c r h),
-  /// the angle between two directions, which stays right when the ray runs through the lamp.
-  HWY_INLINE Real lamp(const Rays& rays, const Stretch& stretch, int l)
+  /// What a lamp sends to a stretch, at three places of it: those of Gauss and Legendre, evenly over
+  /// the stretch, or, where the light weakens with the square of the distance d, over the angle that
+  /// the lamp sees it under. With b the way from the place nearest to the lamp, δ its distance and
+  /// r² = δ² + a / c,
+  ///     ∫ f ds / (a + c d²) = 1 / (c r) ∫ f dφ,    s = r tan φ,
+  /// which stays right when the ray runs through the lamp.
+  HWY_INLINE void find_lamp(const Rays& rays, const Stretch& stretch, int l)
   {
     const ShadeLight& light = Lit.lights[l].source;
     const Real zero = hn::Zero(float_tag);
+    const Real one = real(1.0f);
+    const Real half = real(0.5f);
     const Vec3<Real> offset = lamp_offset(rays, stretch.middle, l);
-    const Incidence<Real> from = incidence<Real>(light, offset);
-    find_phases(l, -from.toward);
-    const float constant_part = light.attenuation[0];
-    const float square_part = light.attenuation[2];
-    if (!(square_part > 0.0f))
-    {
-      return from.strength;
-    }
-    const Real along = hn::Neg(dot(offset, Viewer));
-    const Real square = dot(offset, offset);
+    const Real middle = hn::Neg(dot(offset, Viewer));
+    const Vec3<Real> nearest = offset + Viewer * middle;
     const Real length = (stretch.high - stretch.low) * rays.step_world;
-    const Real nearest = max(hn::NegMulAdd(along, along, square), zero);
+    const Mask some = length > zero;
+    const Real inverse_length = hn::IfThenElseZero(some, one / hn::IfThenElse(some, length, one));
+    const Real begin = hn::NegMulAdd(length, half, middle);
+    const Real square = dot(nearest, nearest);
+    const float constant_part = light.attenuation[0];
+    const float linear_part = light.attenuation[1];
+    const float square_part = light.attenuation[2];
+    const bool by_angle = square_part > 0.0f;
     // A ray through the lamp itself would be infinitely bright there.
-    const Real least = length * length * real(1e-10f);
-    const Real r2 = max(nearest + real(constant_part / square_part), max(least, real(1e-30f)));
+    const Real least = max(length * length * real(1e-10f), real(1e-30f));
+    const Real r2 = max(square + real(by_angle ? constant_part / square_part : 0.0f), least);
     const Real inverse = rsqrt_or_zero(r2);
     const Real r = r2 * inverse;
-    // atan2(h r, r² + b² − h²/4), in (0, π).
-    const Real y = length * r;
-    const Real x = hn::MulAdd(along, along, r2) - length * length * real(0.25f);
-    const Mask steep = hn::Abs(x) < y;
-    const Real numerator = hn::IfThenElse(steep, x, y);
-    const Real denominator = hn::IfThenElse(steep, y, x);
-    const Mask some = hn::Abs(denominator) > zero;
-    const Real slope =
-      hn::Atan(float_tag, numerator / hn::IfThenElse(some, denominator, real(1.0f)));
-    const Real pi = real(3.14159265f);
-    const Real turned = hn::IfThenElse(x < zero, slope + pi, slope);
-    const Real angle = hn::IfThenElse(steep, pi * real(0.5f) - slope, turned);
-    const Mask long_enough = length > zero;
-    const Real mean = hn::IfThenElseZero(long_enough,
-      angle * inverse / hn::IfThenElse(long_enough, length, real(1.0f)));
-    if (light.attenuation[1] == 0.0f)
+    Real low = zero;
+    Real angle = zero;
+    if (by_angle)
     {
-      return cone_factor<Real>(light, -from.toward) * mean * real(1.0f / square_part);
+      low = hn::Atan(float_tag, begin * inverse);
+      // atan2(h r, r² + b² − h²/4), in (0, π): what the difference of two angles would have lost.
+      const Real y = length * r;
+      const Real x = hn::MulAdd(middle, middle, r2) - length * length * real(0.25f);
+      const Mask steep = hn::Abs(x) < y;
+      const Real denominator = hn::IfThenElse(steep, y, x);
+      const Mask any = hn::Abs(denominator) > zero;
+      const Real slope = hn::Atan(float_tag,
+        hn::IfThenElse(steep, x, y) / hn::IfThenElse(any, denominator, one));
+      const Real pi = real(3.14159265f);
+      angle = hn::IfThenElse(
+        steep, pi * half - slope, hn::IfThenElse(x < zero, slope + pi, slope));
     }
-    // What the linear part changes is taken from the middle.
-    return from.strength * mean * hn::MulAdd(along, along, nearest + real(constant_part / square_part));
+    const auto distance = [&](Real s) { return hn::Sqrt(hn::MulAdd(s, s, square)); };
+    const Real first = distance(begin);
+    const Real last = distance(begin + length);
+    const Real both = first + last;
+    Lamps.set(lamp_index(l, 0), one / max(both, real(1e-30f)));
+    for (int i = 0; i < lamp_points; ++i)
+    {
+      constexpr float places[lamp_points] = { 0.11270167f, 0.5f, 0.88729833f };
+      constexpr float weights[lamp_points] = { 5.0f / 18.0f, 8.0f / 18.0f, 5.0f / 18.0f };
+      Real s = hn::MulAdd(length, real(places[i]), begin);
+      if (by_angle)
+      {
+        const Real at = hn::MulAdd(angle, real(places[i]), low);
+        const Real cosine = hn::Cos(float_tag, at);
+        s = r * hn::Sin(float_tag, at) / max(cosine, real(1e-7f));
+        s = clamp(s, begin, begin + length);
+      }
+      const Real along = (s - begin) * inverse_length;
+      const Real d = distance(s);
+      const Vec3<Real> away = nearest - Viewer * s;
+      const Vec3<Real> travel = away * rsqrt_or_zero(dot(away, away));
+      const Real square_term = real(square_part) * d * d + real(constant_part);
+      const Real whole = hn::MulAdd(real(linear_part), d, square_term);
+      Real strength;
+      if (by_angle)
+      {
+        strength = angle * inverse * inverse_length * real(1.0f / square_part);
+        if (linear_part != 0.0f)
+        {
+          strength = strength * square_term / max(whole, real(1e-12f));
+        }
+      }
+      else
+      {
+        strength = one / max(whole, real(1e-12f));
+      }
+      strength = strength * real(weights[i]) * cone_factor<Real>(light, travel);
+      Lamps.set(lamp_index(l, 1 + 3 * i), strength);
+      Lamps.set(lamp_index(l, 2 + 3 * i), along);
+      // How much further off the place is than if the distance ran evenly.
+      Lamps.set(lamp_index(l, 3 + 3 * i), d - lerp(first, last, along));
+      find_phases(l, travel, i);
+    }
+  }
+  HWY_INLINE std::size_t lamp_index(int l, int i) const
+  {
+    return static_cast<std::size_t>(l) * (1 + 3 * lamp_points) + i;
+  }
+
+  /// of_octaves() of a lamp, its strength included. Between the ends of the stretch optical depths
+  /// run as the distance does in even matter.
+  HWY_INLINE void of_lamp(
+    int l, int k, int number, const Channels<Chromatic>& dim, Channels<Chromatic>& light) const
+  {
+    const Vec3<Real> low = get_shadow(l, number);
+    const Vec3<Real> high = get_shadow(l, number + 1);
+    const Real from[3] = { low.x, low.y, low.z };
+    const Real to[3] = { high.x, high.y, high.z };
+    const LitVolume& medium = Lit.volumes[k];
+    const Real zero = hn::Zero(float_tag);
+    for (int c = 0; c < (Chromatic ? 3 : 1); ++c)
+    {
+      const Real scale = Chromatic ? channel(c) : real(1.0f);
+      light[c] = zero;
+      for (int i = 0; i < lamp_points; ++i)
+      {
+        const Real along = Lamps.get(lamp_index(l, 2 + 3 * i));
+        const Real bend = Lamps.get(lamp_index(l, 3 + 3 * i)) * Lamps.get(lamp_index(l, 0));
+        const auto between = [&](Real a, Real b)
+        { return max(hn::MulAdd(a + b, bend, lerp(a, b, along)), zero); };
+        const Real depth = between(from[c] * scale, to[c] * scale);
+        Real dimmed = dim[c] * along;
+        if constexpr (Foggy)
+        {
+          dimmed = dimmed + between(fog_depth(l, 0, c), fog_depth(l, 1, c));
+        }
+        Real sum = zero;
+        for (std::size_t m = 0; m < medium.octaves.size(); ++m)
+        {
+          const Real factor = Phases.get(phase_index(l, k, static_cast<int>(m), i)) *
+            real(medium.octaves[m].contribution);
+          const Real through = hn::MulAdd(depth, real(medium.octaves[m].attenuation), dimmed);
+          sum = hn::MulAdd(factor, hn::Exp(float_tag, hn::Neg(through)), sum);
+        }
+        light[c] = hn::MulAdd(sum, Lamps.get(lamp_index(l, 1 + 3 * i)), light[c]);
+      }
+    }
   }
 
   HWY_INLINE void add_ambient(const Rays& rays,
@@ -982,7 +1064,7 @@ private:
   LightDepths Depths;
   PacketArray Shadows;
   PacketArray FogDepths;
-  PacketArray Strengths; ///< of the lights, in the stretch at hand
+  PacketArray Lamps; ///< lamp_index()
   PacketArray Phases;
   FieldFunctions Functions;
   std::vector<FieldFunctions> Temperatures;

@@ -157,6 +157,12 @@ glm::dvec3 EffectBounds::tint(std::size_t k) const
   return volume.medium.albedo * this->Figures.matter[k].colour;
 }
 
+glm::dvec3 EffectBounds::behind(const EffectSet& on) const
+{
+  return 1.0 +
+         (on.has(Effect::Fog) ? this->FogSeen.radiance + this->FogSeen.deviation : glm::dvec3(0.0));
+}
+
 glm::dvec3 EffectBounds::ambient() const
 {
   return 0.5 * (this->TheScene.sky.radiance + this->TheScene.sky.ground);
@@ -421,7 +427,7 @@ glm::dvec3 EffectBounds::change(Effect effect, std::size_t ray, const EffectSet&
       for (int c = 0; c < 3; ++c)
       {
         const double passes = opacity(this->channel(c, on).upper * this->Figures.view.depth[ray]);
-        result[c] = passes + std::max(0.0, all[c] - some[c]);
+        result[c] = passes * this->behind(on)[c] + std::max(0.0, all[c] - some[c]);
       }
       return result;
     }
@@ -489,7 +495,8 @@ glm::dvec3 EffectBounds::change(Effect effect, std::size_t ray, const EffectSet&
       for (int c = 0; c < 3; ++c)
       {
         const double passes = opacity(this->channel(c, on).upper * this->Figures.view.depth[ray]);
-        result[c] = on.has(Effect::Absorption) ? std::max(passes, behind[c]) : behind[c];
+        result[c] = on.has(Effect::Absorption) ? std::max(passes * this->behind(on)[c], behind[c])
+                                               : behind[c];
       }
       return result;
     }

@@ -42,6 +42,8 @@ private:
   glm::dvec3 change_by_shading(std::size_t ray, const EffectSet& on) const;
   glm::dvec3 change_by_channels(std::size_t ray, const EffectSet& on) const;
   glm::dvec3 ambient() const;
+  /// The light that may come from behind a volume: of the white background, and of fog.
+  glm::dvec3 behind(const EffectSet& on) const;
 
   const Scene& TheScene;
   const PlanFigures& Figures;

@@ -209,8 +209,6 @@ glm::dvec3 change_in_fog(Effect effect, const FogFigures& fog, const EffectSet& 
   const glm::dvec3 more = scatters && !on.has(Effect::PhaseAnisotropy) ? fog.deviation : none;
   switch (effect)
   {
-    case Effect::Absorption:
-      return glm::dvec3(std::numeric_limits<double>::infinity());
     case Effect::Scattering:
       return lit + ambient + more;
     case Effect::PhaseAnisotropy:

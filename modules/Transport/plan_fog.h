@@ -31,7 +31,7 @@ struct FogFigures
 FogFigures look_at_fog(const Scene& scene);
 
 /// What leaving out an effect changes in the fog of a picture that simulates it and those of the
-/// others that `on` has; +∞ where nothing is known.
+/// others that `on` has. Absorption is that of volumes.
 glm::dvec3 change_in_fog(Effect effect, const FogFigures& fog, const EffectSet& on);
 
 }

@@ -115,6 +115,10 @@ public:
       phases += this->Octaves[k].size() * this->TheScene.lights.size();
     }
     light.shadings.resize(this->Shaded ? rays : 0);
+    if (rays == 0) // no volumes
+    {
+      return light;
+    }
     const int block = phases <= few_phases ? 1 : phases <= many_phases ? 2 : 4;
     for (std::size_t l = 0; l < this->TheScene.lights.size(); ++l)
     {
@@ -406,6 +410,10 @@ ChannelRanges channel_ranges(const Scene& scene)
 {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   ChannelRanges ranges;
+  if (scene.volumes.empty())
+  {
+    return ranges;
+  }
   ranges.mean = { infinite, 0.0 };
   std::fill(ranges.of, ranges.of + 3, ranges.mean);
   const auto include = [](ChannelRanges::Range& range, double value)

@@ -484,6 +484,14 @@ PlanKey PlanProbe::matter_key(const Scene& scene)
 const PlanFigures& PlanProbe::look(Marcher& marcher, const Scene& scene, int threads)
 {
   scene.validate();
+  if (scene.volumes.empty()) // fog alone, whose figures are closed forms
+  {
+    this->MatterKey = PlanKey();
+    this->Figures = PlanFigures();
+    this->Figures.lights.assign(scene.lights.size(), 0.0);
+    this->Figures.clearance.assign(scene.lights.size(), 0.0);
+    return this->Figures;
+  }
   const PlanKey key = this->matter_key(scene);
   this->look_at_values(scene, threads);
   if (!(key == this->MatterKey))

@@ -19,6 +19,15 @@ expect_failure 2
 expect_error '^brume: --nonsense: there is no such option'
 expect_no_files
 
+case_ "a misspelt option is told the one that was meant"
+run render sample:cloud --output a.png --albdeo 1
+expect_failure 2
+expect_error '^brume: --albdeo: there is no such option, perhaps --albedo: see brume render --help$'
+run render sample:cloud --output a.png --sky_radiance=1,1,1
+expect_failure 2
+expect_error 'perhaps --sky-radiance'
+expect_no_files
+
 case_ "--help is an answer, not an error"
 run --help
 expect_success

@@ -11,15 +11,17 @@ run plan ../blob.nrrd --json plan.json --quiet
 expect_success
 expect_only plan.json
 for effect in "${effects[@]}"; do
-  expect_output "^$effect +(yes|no)(, forced)? +[0-9.e-]+ +[^ ]"
+  expect_output "^$effect +(yes|no)(, forced)? +[0-9.e-]+ +([0-9.]+|-) +[^ ]"
   grep -q "\"name\": \"$effect\"" plan.json || fail "expected $effect in plan.json"
 done
-expect_output '^effect +simulated +error +reason$'
+expect_output '^effect +simulated +error +cost +reason$'
+expect_output 'expected to take [0-9.]+ times as long'
 expect_output 'tolerance 0\.004'
-for key in on forced reason error_bound; do
+for key in on forced reason error_bound cost; do
   [ "$(grep -c "\"$key\": " plan.json)" -ge 14 ] || fail "expected $key of each effect"
 done
 grep -q '"format": "brume-plan"' plan.json || fail "expected the format"
+grep -qE '"expected_cost": [0-9.]+' plan.json || fail "expected the cost"
 
 case_ "the plan follows the scene"
 blob ../blob.nrrd

@@ -28,7 +28,7 @@ expect_output '^Usage: brume render INPUT --output FILE \[OPTIONS\]$'
 for option in resolution camera-position camera-focal-point camera-view-up camera-view-angle \
   camera-parallel-scale background preset opacity-unit-distance shade interpolation \
   blend-mode isovalues average-range cropping cropping-flags clipping-plane mask \
-  sample-distance tolerance threads quiet verbose output mapper stats; do
+  sample-distance tolerance threads quiet verbose output mapper stats exposure display-curve; do
   expect_output "[-][-]$option\b"
 done
 [ "$(wc -L < ../out)" -le 80 ] || fail "expected lines of at most 80 columns"
@@ -234,6 +234,28 @@ expect_error 'additive'
 
 bad_calls render a.png
 bad_inputs render --output a.png "${small[@]}"
+
+case_ "exposure and display curve"
+draw plain
+draw brighter --exposure 1
+differ plain.png brighter.png
+expect_stats brighter.json '"exposure": 1.0'
+draw srgb --display-curve srgb
+differ plain.png srgb.png
+expect_stats srgb.json '"display_curve": "srgb"'
+draw same --exposure 0 --display-curve none
+same plain.png same.png
+for options in "--exposure nan" "--exposure 100" "--display-curve gamma"; do
+  # shellcheck disable=SC2086
+  run render ../blob.nrrd --output a.png $options
+  expect_failure 2
+  expect_error "^brume: ${options%% *}"
+done
+run render ../blob.nrrd --output a.exr --exposure 1
+expect_failure 2
+run render ../blob.nrrd --output a.exr --display-curve srgb
+expect_failure 2
+expect_no_file a.png a.exr
 
 case_ "outputs that cannot be"
 blob ../blob.nrrd

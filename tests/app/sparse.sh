@@ -50,7 +50,7 @@ for n in 0.2 0.4; do
   expect_success
 done
 differ 0.2.png 0.4.png
-grep -q 'a density absorbs and does not emit' 0.2.json || fail "expected the reason in the effects"
+grep -q 'no matter sends light by itself' 0.2.json || fail "expected the reason in the effects"
 run render "$data/blob.vdb" --extinction 0.2 --background 1,1,1 --output white.png "${small[@]}"
 expect_success
 same 0.2.png white.png

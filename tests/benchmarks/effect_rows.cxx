@@ -277,6 +277,17 @@ std::vector<Effected> all_effects()
         d.scene.volumes[0].shading.enabled = true;
         d.scene.lights = { sun() };
       } },
+    { "fog",
+      "emission and absorption under fog in layers",
+      3.0,
+      [](const Cloud& cloud, Drawing& d)
+      {
+        d.scene = cloud.classified();
+        d.scene.fog.enabled = true;
+        d.scene.fog.extinction = glm::dvec3(0.2);
+        d.scene.fog.falloff = 1.0;
+        d.scene.lights = { sun() };
+      } },
     { "surfaces",
       "emission and absorption to the middle of the cloud",
       1.0,
@@ -379,7 +390,7 @@ void add_effect_rows(Scenes& scenes, std::vector<Row>& rows)
       [lit = one.lit, kept = one.kept](Pair& pair)
       { leave_out(pair, lit ? pair.cloud->lit() : pair.cloud->absorbing(), kept); });
     row.target = 1.02;
-    row.repetitions = options.quick ? 1 : 21;
+    row.repetitions = options.quick ? 1 : 11;
     rows.push_back(row);
   }
 }

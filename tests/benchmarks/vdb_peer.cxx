@@ -18,6 +18,7 @@
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkVolume.h"
+#include "vtkVolumeProperty.h"
 
 #include <OpenImageIO/imageio.h>
 #include <nlohmann/json.hpp>
@@ -271,6 +272,7 @@ VdbPeer::VdbPeer(
   own.lights->AddItem(sun);
   own.medium->SetExtinction(extinction);
   own.medium->SetAlbedo(albedo, albedo, albedo);
+  own.volume->GetProperty()->SetInterpolationTypeToLinear();
 }
 
 VdbPeer::~VdbPeer()

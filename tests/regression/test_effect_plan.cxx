@@ -224,6 +224,23 @@ std::vector<Case> all_cases()
     s.sky.radiance = glm::dvec3(0.01);
   }
   {
+    Scene& s = add(lit_ball("foggy", 1.0));
+    s.fog.enabled = true;
+    s.fog.extinction = { 0.2, 0.25, 0.3 };
+    s.fog.falloff = 1.5;
+    s.fog.lobes = forward;
+    s.sky.up = { 0.0, 1.0, 0.0 };
+    s.sky.radiance = glm::dvec3(0.3);
+    s.volumes[0].medium.octaves.count = 2;
+  }
+  {
+    Scene& s = add(lit_ball("hardly foggy", 0.8));
+    s.fog.enabled = true;
+    s.fog.extinction = { 1e-4, 1e-4, 1.3e-4 };
+    s.fog.falloff = 0.5;
+    s.sky.up = { 0.0, 1.0, 0.0 };
+  }
+  {
     Scene& s = add(lit_ball("sky only", 1.2));
     s.lights.clear();
     s.sky.radiance = { 0.4, 0.6, 1.0 };
@@ -427,6 +444,7 @@ std::vector<Case> fogs()
   const auto add = [&](const std::string& name) -> Scene&
   {
     Case c = lit_ball(name, 0.0);
+    c.scene.volumes.clear();
     c.scene.fog.enabled = true;
     c.scene.fog.extinction = { 0.3, 0.4, 0.6 };
     c.scene.fog.falloff = 2.0;

@@ -15,6 +15,7 @@
 #include "vtkFloatArray.h"
 #include "vtkLight.h"
 #include "vtkLightCollection.h"
+#include "vtkVolumeCollection.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -242,6 +243,62 @@ TEST(LitCube, ClassifiedMatterScattersItsColour)
   cube.add_light(edge / 2, edge / 2, 40.0);
   const double lit = 0.25 * -std::expm1(-2.0 * 0.05 * edge) / 2.0;
   expect_rgb(cube.radiance(), 0.9 * lit, 0.45 * lit, 0.125 * lit, 1e-3);
+}
+
+// Several volumes as one. ------------------------------------------------------------------------
+
+/// Two cubes side by side along x, the first in the middle of the picture.
+struct TwoCubes
+{
+  Cube first;
+  Cube second;
+  vtkNew<vtkVolumeCollection> volumes;
+
+  TwoCubes(double sigma)
+  {
+    for (Cube* cube : { &first, &second })
+    {
+      cube->medium->SetExtinction(sigma);
+      cube->mapper->SetSky(nullptr);
+      volumes->AddItem(cube->volume);
+    }
+    second.volume->SetPosition(20.0, 0.0, 0.0);
+  }
+  glm::dvec3 radiance()
+  {
+    EXPECT_TRUE(first.mapper->RenderFilm(volumes, first.camera, first.lights, first.film));
+    const std::size_t middle = first.film.size() / 2;
+    return {
+      first.film.radiance[0][middle], first.film.radiance[1][middle], first.film.radiance[2][middle]
+    };
+  }
+};
+
+TEST(LitTogether, EachCastsItsShadowOnTheOther)
+{
+  const double sigma = 0.05;
+  TwoCubes cubes(sigma);
+  cubes.first.add_light(90.0, edge / 2, edge / 2);
+  const double alone = 0.25 * std::exp(-sigma * edge / 2.0) * -std::expm1(-sigma * edge);
+  const double behind = alone * std::exp(-sigma * edge);
+  const glm::dvec3 together = cubes.radiance();
+  expect_rgb(together, behind, behind, behind, 1e-3);
+  cubes.second.volume->SetPosition(-20.0, 0.0, 0.0);
+  expect_rgb(cubes.radiance(), alone, alone, alone, 1e-3);
+}
+
+TEST(LitTogether, TheFirstSkyLightsAll)
+{
+  const double sigma = 1e-6;
+  TwoCubes cubes(sigma);
+  cubes.first.mapper->SetTolerance(1e-12);
+  cubes.second.sky->SetSkyRadiance(1.0, 1.0, 1.0);
+  cubes.second.mapper->SetSky(cubes.second.sky);
+  const double half = 0.5 * sigma * edge;
+  expect_rgb(cubes.radiance(), half, half, half, 2e-3);
+  cubes.first.mapper->SetSky(cubes.first.sky);
+  cubes.first.sky->SetSkyRadiance(0.0, 0.0, 0.5);
+  expect_rgb(cubes.radiance(), 0.0, 0.0, 0.5 * half, 2e-3);
 }
 
 // Statistics. ----------------------------------------------------------------------------------
