@@ -527,6 +527,7 @@ TEST(FogAndVolumes, TheReferenceDrawsThemToo)
     world.boxes[0].octaves = 2;
     world.scene.fog.extinction = dvec3(0.05, 0.07, 0.1);
     world.scene.fog.falloff = how == 0 ? 0.3 : 0.0;
+    world.scene.fog.base_height = how == 0 ? -3.0 : 0.0;
     world.scene.sky.radiance = dvec3(0.2);
     world.scene.sky.ground = dvec3(0.1);
     world.make_volumes();
