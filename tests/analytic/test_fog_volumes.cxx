@@ -537,7 +537,8 @@ TEST(FogAndVolumes, TheReferenceDrawsThemToo)
     EXPECT_TRUE(render_reference(world.scene, settings, film).completed);
     EXPECT_LT(world.worst(film), 2e-4) << how;
     const Film marched = world.march();
-    EXPECT_LT(difference(film, marched), 2e-3) << how;
+    // The sky's light comes from a lattice of nodes a voxel apart.
+    EXPECT_LT(difference(film, marched), 4e-3) << how;
     for (std::size_t i = 0; i < film.size(); ++i)
     {
       ASSERT_NEAR(marched.depth[i], film.depth[i], 0.05);
