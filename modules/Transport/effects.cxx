@@ -45,29 +45,29 @@ double effect_cost(Effect effect)
   switch (effect)
   {
     case Effect::Absorption:
-      return 0.80;
+      return 0.87;
     case Effect::Emission:
-      return 0.20;
+      return 0.13;
     case Effect::Scattering:
-      return 0.12;
+      return 0.06;
     case Effect::PhaseAnisotropy:
       return 0.03;
     case Effect::ColouredExtinction:
-      return 0.58;
+      return 0.60;
     case Effect::Shadows:
-      return 0.43;
+      return 0.40;
     case Effect::Ambient:
-      return 0.85;
+      return 1.01;
     case Effect::Octaves:
-      return 0.31;
+      return 0.23;
     case Effect::GradientShading:
-      return 1.36;
+      return 1.30;
     case Effect::SilverLining:
-      return 0.03;
+      return 0.01;
     case Effect::Powder:
-      return 0.15;
+      return 0.14;
     case Effect::Fog:
-      return 1.0;
+      return 8.10;
     case Effect::Surfaces:
     case Effect::SpaceLeaping:
       return 0.0;

@@ -33,8 +33,8 @@ constexpr int most_halvings = 24;
 constexpr int most_cuts = 2000;
 /// e^−750 is 0.
 constexpr double darkest = 750.0;
-/// Stretches in which the integrand is e^−30 of what it is elsewhere are left out.
-constexpr double negligible = 30.0;
+/// Stretches in which the integrand is e^−18 of what it is elsewhere, or less, are left out.
+constexpr double negligible = 18.0;
 /// Optical depths from which nothing comes: e^−40 = 4e-18.
 constexpr double deepest = 40.0;
 
@@ -105,11 +105,11 @@ public:
     {
       return this->Sum;
     }
-    std::array<double, 5> exponents{};
+    std::array<Level, 5> levels{};
     for (std::size_t i = 0; i < count; ++i)
     {
-      exponents[i] = this->exponent(cuts[i]);
-      this->Least = std::min(this->Least, exponents[i]);
+      levels[i] = this->level(cuts[i]);
+      this->Least = std::min(this->Least, levels[i].whole);
     }
     for (std::size_t i = 0; i + 1 < count; ++i)
     {
@@ -117,7 +117,7 @@ public:
       {
         const double v0 = std::asinh(cuts[i] / this->Width);
         const double v1 = std::asinh(cuts[i + 1] / this->Width);
-        this->add(v0, exponents[i], v1, exponents[i + 1], 0);
+        this->add(v0, levels[i], v1, levels[i + 1], 0);
       }
     }
     return this->Sum;
@@ -198,36 +198,46 @@ private:
            this->Fog.lamp_column(this->Light, profile, this->offset(x));
   }
 
-  /// −1 times the integrand's logarithm, but for distance and angle.
-  double exponent(double x) const
+  /// −1 times the integrand's logarithm at a place.
+  struct Level
+  {
+    double fog;   ///< but for distance and angle, which the substitution takes care of
+    double whole; ///< of what a step of v has, but for the phase function
+  };
+  Level level(double x) const
   {
     const double f = this->profile(x);
-    double sum = std::min(this->Extinction * this->columns(x, f), 1e300) +
+    const double strength = this->lit(x).strength;
+    const double distance = std::hypot(std::max(this->Distance, this->Width), x);
+    Level result;
+    result.fog = std::min(this->Extinction * this->columns(x, f), 1e300) +
                  this->Fog.Falloff * this->Ray.slope * (x + this->Nearest);
+    result.whole = result.fog - std::log(std::max(strength * distance, 1e-300));
     if (this->Light.shape.cone_cosine > -1.0f)
     {
-      sum -= std::log(std::max(this->lit(x).strength, 1e-6));
+      result.fog -= std::log(std::max(strength, 1e-6));
     }
-    return sum;
+    return result;
   }
 
-  void add(double v0, double e0, double v1, double e1, int halvings)
+  void add(double v0, const Level& l0, double v1, const Level& l1, int halvings)
   {
     const double middle = 0.5 * (v0 + v1);
-    const double e = this->exponent(this->Width * std::sinh(middle));
+    const Level l = this->level(this->Width * std::sinh(middle));
     const bool is_long = v1 - v0 > longest_stretch;
-    this->Least = std::min(this->Least, e);
-    if (!is_long && std::min({ e0, e, e1 }) > this->Least + negligible)
+    this->Least = std::min(this->Least, l.whole);
+    if (!is_long && std::min({ l0.whole, l.whole, l1.whole }) > this->Least + negligible)
     {
       return;
     }
     // What exponents of this size are rounded by is no change.
-    const double rounding = 1e-14 * std::max({ std::abs(e0), std::abs(e), std::abs(e1) });
-    const double change = std::abs(e - e0) + std::abs(e1 - e) - rounding;
-    if (halvings < most_halvings && (is_long || (change > largest_change && ++this->Cuts < most_cuts)))
+    const double rounding = 1e-14 * std::max({ std::abs(l0.fog), std::abs(l.fog), std::abs(l1.fog) });
+    const double change = std::abs(l.fog - l0.fog) + std::abs(l1.fog - l.fog) - rounding;
+    if (halvings < most_halvings &&
+        (is_long || (change > largest_change && ++this->Cuts < most_cuts)))
     {
-      this->add(v0, e0, middle, e, halvings + 1);
-      this->add(middle, e, v1, e1, halvings + 1);
+      this->add(v0, l0, middle, l, halvings + 1);
+      this->add(middle, l, v1, l1, halvings + 1);
       return;
     }
     const GaussLegendre<8>& rule = gauss_legendre<8>();
@@ -272,7 +282,7 @@ private:
   double Lower = 0.0;
   double Upper = 0.0;
   double Width = 0.0; ///< of the substitution: the distance, or next to nothing where it is 0
-  double Least = darkest; ///< of the exponents so far
+  double Least = darkest; ///< of Level::whole so far
   int Cuts = 0;
   double Sum = 0.0;
 };

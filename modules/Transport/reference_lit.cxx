@@ -72,8 +72,13 @@ void add_light_cuts(const Light& light, const PixelRay& ray, std::vector<double>
   }
 }
 
-/// Takes a stretch of the ray, as the fog has it, that lies in no volume.
-void pass_fog(const FogModel& fog, const PixelRay& ray, double from, double to, RayResult& result)
+/// Takes a stretch of the ray, as the fog has it, that lies in no volume. `depth` is that of all so far.
+void pass_fog(const FogModel& fog,
+  const PixelRay& ray,
+  double from,
+  double to,
+  glm::dvec3& depth,
+  RayResult& result)
 {
   if (!(to > from))
   {
@@ -86,7 +91,8 @@ void pass_fog(const FogModel& fog, const PixelRay& ray, double from, double to, 
     result.half_way = ray.world_length > 0.0 ? std::max(way, 0.0) / ray.world_length : 0.0;
   }
   result.radiance += result.transmittance * fog.radiance(ray.fog, from, to);
-  result.transmittance *= fog.transmittance(ray.fog, from, to);
+  depth += fog.optical_depth(ray.fog, from, to);
+  result.transmittance = glm::exp(-depth);
 }
 
 class LitRay final : public RayIntegral
@@ -144,7 +150,7 @@ public:
       for (; fog && interval != this->Intervals.end() && interval->from <= stretch.part.from;
            ++interval)
       {
-        pass_fog(*fog, this->TheRay, fog_from, distance(interval->from), result);
+        pass_fog(*fog, this->TheRay, fog_from, distance(interval->from), depth, result);
         fog_from = distance(interval->to);
       }
       const int count = pieces * stretch.factor;
@@ -184,7 +190,7 @@ public:
     }
     if (fog)
     {
-      pass_fog(*fog, this->TheRay, fog_from, this->TheRay.fog_end, result);
+      pass_fog(*fog, this->TheRay, fog_from, this->TheRay.fog_end, depth, result);
     }
     return result;
   }

@@ -49,6 +49,9 @@ constexpr double precise_below = 1e-3;
 constexpr double least_of_volumes = 1e-4;
 constexpr double nodes_of_a_picture = 4e6;
 constexpr double nodes_at_most = 2e7;
+/// From here on rays through classified matter are not taken for what the best light volume misses at
+/// its surfaces: a hundred times the time is more than so loose a tolerance is worth.
+constexpr double rays_below = 9e-4;
 constexpr double rounding_of_rays = 1e-5;
 constexpr double shortest_of_shadows = 1.0 / 8.0; ///< voxel edges
 
@@ -216,12 +219,16 @@ ShadowChoice choose_shadows(Marcher& marcher, const Scene& scene, double toleran
   {
     const double error =
       unseen_shadows * probe.change(with(ShadowMethod::Volume, spacing * edge), truth);
-    if (error <= tolerance)
+    if (first || error < choice.estimated_error)
     {
       choice.method = ShadowMethod::Volume;
       choice.step = spacing * edge;
       choice.precise = base.precise_shadows;
       choice.estimated_error = error;
+      choice.met = error <= tolerance;
+    }
+    if (choice.met)
+    {
       return choice;
     }
     if (spacing <= 0.25)
@@ -229,7 +236,12 @@ ShadowChoice choose_shadows(Marcher& marcher, const Scene& scene, double toleran
       break;
     }
   }
+  if (!exact && tolerance >= rays_below)
+  {
+    return choice;
+  }
   choice.method = ShadowMethod::Rays;
+  choice.met = true;
   choice.precise = true; // the sky's light
   if (exact)
   {

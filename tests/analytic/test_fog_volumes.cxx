@@ -527,6 +527,7 @@ TEST(FogAndVolumes, TheReferenceDrawsThemToo)
     world.boxes[0].octaves = 2;
     world.scene.fog.extinction = dvec3(0.05, 0.07, 0.1);
     world.scene.fog.falloff = how == 0 ? 0.3 : 0.0;
+    world.scene.fog.base_height = how == 0 ? -3.0 : 0.0;
     world.scene.sky.radiance = dvec3(0.2);
     world.scene.sky.ground = dvec3(0.1);
     world.make_volumes();
@@ -536,10 +537,11 @@ TEST(FogAndVolumes, TheReferenceDrawsThemToo)
     EXPECT_TRUE(render_reference(world.scene, settings, film).completed);
     EXPECT_LT(world.worst(film), 2e-4) << how;
     const Film marched = world.march();
-    EXPECT_LT(difference(film, marched), 2e-3) << how;
+    // The marcher reads the sky's light from a lattice of the volumes' voxels.
+    EXPECT_LT(difference(film, marched), 4e-3) << how;
     for (std::size_t i = 0; i < film.size(); ++i)
     {
-      ASSERT_NEAR(marched.depth[i], film.depth[i], 0.05);
+      ASSERT_NEAR(marched.depth[i], film.depth[i], 0.1); // pieces of the reference
     }
   }
   // Without volumes.

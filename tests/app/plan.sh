@@ -20,6 +20,8 @@ expect_output 'tolerance 0\.004'
 for key in on forced reason error_bound cost; do
   [ "$(grep -c "\"$key\": " plan.json)" -ge 14 ] || fail "expected $key of each effect"
 done
+expect_output 'expected to take [0-9.]+ times'
+grep -q '"expected_cost": [0-9.]' plan.json || fail "expected the cost"
 grep -q '"format": "brume-plan"' plan.json || fail "expected the format"
 grep -qE '"expected_cost": [0-9.]+' plan.json || fail "expected the cost"
 

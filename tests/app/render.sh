@@ -329,7 +329,7 @@ case_ "a bar on a terminal, none with --quiet"
 if command -v script > /dev/null; then
   blob ../blob.nrrd
   for quiet in "" --quiet; do
-    script -qec "timeout -s INT 3 '$BRUME' render ../blob.nrrd --output a.png \
+    script -qec "timeout -s INT 8 '$BRUME' render ../blob.nrrd --output a.png \
       --resolution 2000,2000 --sample-distance 0.001 $quiet" /dev/null > ../bar"$quiet" < /dev/null
   done
   grep -q 'rendering \[#* *\]' ../bar || fail "expected a bar"

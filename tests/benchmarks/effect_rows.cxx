@@ -300,7 +300,7 @@ std::vector<Effected> all_effects()
       } },
     { "no-space-leaping",
       "emission and absorption, no leaps",
-      2.0,
+      3.0,
       [](const Cloud& cloud, Drawing& d)
       {
         d.scene = cloud.classified();

@@ -229,7 +229,7 @@ struct VdbPeer::Parts
     }
     const int channels = in->spec().nchannels;
     std::vector<float> all(static_cast<std::size_t>(size) * size * channels);
-    in->read_image(OIIO::TypeDesc::FLOAT, all.data());
+    in->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, all.data());
     std::vector<float> first;
     for (int y = size - 1; y >= 0; --y)
     {

@@ -186,7 +186,7 @@ TEST(FogWindow, IsOneWithAVolumeWhateverTheirOrder)
       frames[order] = view.pixels();
       const Film film = view.film_with_volume();
       const Film alone = view.film_alone();
-      EXPECT_GT(difference(film, alone), 0.05) << lit;
+      EXPECT_GT(difference(film, alone), 0.02) << lit;
       EXPECT_LE(worst(frames[order], film), rounding) << lit << order;
       // And again: each frame begins anew.
       EXPECT_EQ(frames[order], view.pixels()) << lit << order;
