@@ -95,7 +95,7 @@ struct Medium
   /// classified volumes), in units of what a body of `black_body_reference` kelvin sends (its
   /// luminance); ≥ 0. Needs `temperature`.
   double black_body = 0.0;
-  double black_body_reference = 1500.0; ///< kelvin, > 0
+  double black_body_reference = 1500.0; ///< kelvin, 800 to 1e5; others are refused
   /// Temperatures on the volume's own lattice: dims, padding and linear are the volume's grid's.
   /// Dense grids only. Its voxels null: none.
   Grid temperature;
