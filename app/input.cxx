@@ -37,7 +37,7 @@ Input make_sample(const std::string& name, const Progress& progress)
       input.format = "sample";
       return input;
     }
-    known += (known.empty() ? "" : ", ") + std::string(sample.name);
+    known += (known.empty() ? "" : ", ") + sample.name;
   }
   throw Failure("sample:" + name, "there is no such sample",
     known.empty() ? "this build has none" : "choose one of " + known, BadCall);

@@ -19,6 +19,9 @@ struct Input
 {
   vtkSmartPointer<vtkImageData> image; ///< with point scalars; at least one voxel
   vtkSmartPointer<vtkBrumeSparseVolume> sparse; ///< in place of the image, which is null then
+  /// Further grids on the sparse volume's lattice, such as a temperature; only files take them.
+  std::vector<vtkSmartPointer<vtkBrumeSparseVolume>> more_sparse;
+  bool signed_distance = false; ///< the values are distances to a surface, negative within
   std::vector<std::string> grids; ///< of a file of several, as people read them; else empty
   std::string name;        ///< for people: the file's name without its folder, or the sample's
   std::string format;      ///< "NIfTI-1 (gzip)", "sample", …
@@ -40,12 +43,12 @@ Input open_input(const std::string& spec, const std::function<void(double)>& pro
 /// The same with a bar on the terminal for what takes over a second, unless `quiet`.
 Input open_input_with_bar(const std::string& spec, const std::string& grid, bool quiet);
 
-/// A sample: what `sample:NAME` makes.
+/// A sample: what `sample:NAME` makes. Each kind of `brume generate` is one (generators.h).
 struct Sample
 {
-  const char* name;
-  const char* summary; ///< one line
-  Input (*make)(const std::function<void(double)>& progress);
+  std::string name;
+  std::string summary; ///< one line
+  std::function<Input(const std::function<void(double)>& progress)> make;
 };
 /// Every sample, in the order in which they are listed.
 const std::vector<Sample>& samples();

@@ -47,7 +47,7 @@ void add_input(CLI::App& command, std::string& input, std::string& grid)
   std::string names;
   for (const Sample& sample : samples())
   {
-    names += (names.empty() ? "sample:" : ", sample:") + std::string(sample.name);
+    names += (names.empty() ? "sample:" : ", sample:") + sample.name;
   }
   command
     .add_option("INPUT", input,

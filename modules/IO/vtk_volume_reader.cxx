@@ -9,6 +9,7 @@
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkExecutive.h"
+#include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkLogger.h"
@@ -16,6 +17,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkOutputWindow.h"
 #include "vtkPointData.h"
+#include "vtkStringArray.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStructuredPoints.h"
 #include "vtkStructuredPointsReader.h"
@@ -277,6 +279,15 @@ VtkVolume read_vti(const std::string& path, const Progress& progress)
   volume.format = "VTK XML image data";
   volume.image = reader->GetOutput();
   settle_scalars(volume, path);
+  const auto told = [&volume](const char* name)
+  {
+    auto* text =
+      vtkStringArray::SafeDownCast(volume.image->GetFieldData()->GetAbstractArray(name));
+    return text && text->GetNumberOfValues() == 1 ? std::string(text->GetValue(0)) : std::string();
+  };
+  volume.length_unit = told("length_unit");
+  volume.value_unit = told("value_unit");
+  volume.patient_axes = told("axes") == "RAS";
   return volume;
 }
 
