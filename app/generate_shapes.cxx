@@ -49,6 +49,7 @@ Make declare_head_ct(CLI::App& command)
     input.length_unit = "mm";
     input.value_unit = "HU";
     input.patient_axes = true;
+    input.backgrounds["Hounsfield"] = -1000; // air
     return input;
   };
 }
@@ -96,6 +97,7 @@ Make declare_smoke(CLI::App& command)
     source->SetSourceTemperature(o->source);
     Input input = run_source(source, request);
     input.length_unit = "m";
+    input.backgrounds["temperature"] = o->air;
     return input;
   };
 }

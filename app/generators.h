@@ -63,8 +63,10 @@ struct GeneratorRequest
     progress; ///< called with the part that is done, in [0, 1]; may be empty
 };
 
-/// Makes the volume: Input::image or Input::sparse, its units and patient_axes; name and format are
-/// set by the caller. Called once for each time of a series. Throws Failure.
+/// Makes the volume: Input::image or Input::sparse (with further grids in more_sparse), its units,
+/// patient_axes, signed_distance for distances to a surface, and the backgrounds of arrays whose
+/// "nothing" is not 0; name and format are set by the caller. Called once for each time of a
+/// series. Throws Failure.
 using Make = std::function<Input(const GeneratorRequest&)>;
 
 enum class Moves

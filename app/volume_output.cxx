@@ -11,8 +11,10 @@
 
 #include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
+#include "vtkDataArray.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
+#include "vtkPointData.h"
 
 #include <CLI/CLI.hpp>
 
@@ -115,7 +117,8 @@ void add_volume_output(CLI::App& command, VolumeOutput& output)
   command
     .add_option("--background",
       output.background,
-      "Of a .vdb from a dense volume: the value that is not stored, in units of the values [0]")
+      "Of a .vdb from a dense volume: the value that is not stored, in units of the values [0, or "
+      "the kind's own]")
     ->check(number("a number", [](double) { return true; }))
     ->type_name("V");
   command
@@ -200,6 +203,13 @@ std::vector<std::string> write_volume(const Input& volume,
     }
     writer->SetHalf(output.half);
     writer->SetBackground(output.background.value_or(0.0));
+    for (const auto& [array, background] : volume.backgrounds)
+    {
+      vtkDataArray* scalars = volume.image ? volume.image->GetPointData()->GetScalars() : nullptr;
+      const bool chosen =
+        output.background && scalars && scalars->GetName() && array == scalars->GetName();
+      writer->SetArrayBackground(array.c_str(), chosen ? *output.background : background);
+    }
     writer->SetTolerance(output.tolerance);
     writer->SetGridClass(output.grid_class == "fog" ? vtkBrumeOpenVDBWriter::GridClassFogVolume
                          : output.grid_class == "level-set"

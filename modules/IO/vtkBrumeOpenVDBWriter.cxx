@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <map>
 #include <new>
 #include <set>
 #include <stdexcept>
@@ -31,7 +32,15 @@ struct vtkBrumeOpenVDBWriter::Internals
 {
   std::string Error;
   std::vector<std::string> Messages;
-  std::set<std::string> Names; // of the grids so far
+  std::set<std::string> Names;               // of the grids so far
+  std::map<std::string, double> Backgrounds; // a setting, kept from one Write() to the next
+
+  void Clear()
+  {
+    this->Error.clear();
+    this->Messages.clear();
+    this->Names.clear();
+  }
 
   void Tell(const std::string& message) { this->Messages.push_back(message); }
 
@@ -152,7 +161,8 @@ void vtkBrumeOpenVDBWriter::Internals::Add(io::VdbWriter& file,
   }
   const double* m = image->GetIndexToPhysicalMatrix()->GetData();
   std::copy(m, m + 16, d.world_from_index.begin());
-  double background = self.Background;
+  const auto own = this->Backgrounds.find(array->GetName() ? array->GetName() : "");
+  double background = own == this->Backgrounds.end() ? self.Background : own->second;
   if (d.kind == io::VdbClass::LevelSet)
   {
     const double* spacing = image->GetSpacing();
@@ -179,6 +189,22 @@ vtkBrumeOpenVDBWriter::vtkBrumeOpenVDBWriter()
 vtkBrumeOpenVDBWriter::~vtkBrumeOpenVDBWriter()
 {
   delete[] this->FileName;
+}
+
+void vtkBrumeOpenVDBWriter::SetArrayBackground(const char* name, double background)
+{
+  double& kept = this->Internal->Backgrounds[name ? name : ""];
+  if (!(kept == background))
+  {
+    kept = background;
+    this->Modified();
+  }
+}
+
+void vtkBrumeOpenVDBWriter::ClearArrayBackgrounds()
+{
+  this->Internal->Backgrounds.clear();
+  this->Modified();
 }
 
 const char* vtkBrumeOpenVDBWriter::GetErrorMessage() const
@@ -209,7 +235,7 @@ int vtkBrumeOpenVDBWriter::FillInputPortInformation(int, vtkInformation* info)
 void vtkBrumeOpenVDBWriter::WriteData()
 {
   Internals& self = *this->Internal;
-  self = Internals();
+  self.Clear();
   this->SetErrorCode(vtkErrorCode::NoError);
   try
   {
@@ -313,6 +339,10 @@ void vtkBrumeOpenVDBWriter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << '\n';
   os << indent << "Half: " << this->Half << '\n';
   os << indent << "Background: " << this->Background << '\n';
+  for (const auto& background : this->Internal->Backgrounds)
+  {
+    os << indent << "Background of " << background.first << ": " << background.second << '\n';
+  }
   os << indent << "Tolerance: " << this->Tolerance << '\n';
   os << indent << "GridClass: " << this->GridClass << '\n';
   os << indent << "BandWidth: " << this->BandWidth << '\n';

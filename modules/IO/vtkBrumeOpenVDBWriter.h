@@ -71,6 +71,15 @@ public:
   vtkGetMacro(Tolerance, double);
   ///@}
 
+  ///@{
+  /**
+   * The background of the arrays of this name alone, such as the air's of a "temperature". Default:
+   * none has one of its own.
+   */
+  void SetArrayBackground(const char* name, double background);
+  void ClearArrayBackgrounds();
+  ///@}
+
   /** What OpenVDB says that the values are. */
   enum GridClasses
   {
