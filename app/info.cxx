@@ -332,6 +332,7 @@ void add_info(CLI::App& program)
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("info",
     "Tell what a volume is: size, spacing, orientation, values and their histogram");
+  options->choice.level_set = "distance";
   add_input(*command, options->input, options->choice);
   command->add_option("--json", options->json, "Write the same, as JSON, to FILE")
     ->type_name("FILE");

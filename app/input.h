@@ -49,6 +49,8 @@ struct InputChoice
   std::optional<int> time_step; ///< of a series over time, from 0 on; empty: the first
   std::optional<double> time;   ///< the same by its time: the nearest
   std::int64_t max_memory = 0;  ///< bytes; 0: three quarters of the machine's
+  std::string level_set = "fog"; ///< of an OpenVDB file: "fog" (a density) or "distance" (as it is)
+  bool all_grids = false; ///< without a grid by name, the others too, into Input::more_sparse
 };
 
 /// Opens INPUT as the user wrote it: `sample:NAME`, or a file, or a folder of DICOM, of which `choice`

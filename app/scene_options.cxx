@@ -86,6 +86,12 @@ void add_input(CLI::App& command, std::string& input, InputChoice& choice)
     .add_option("--grid", choice.grid, "Which grid of an OpenVDB file [the first that can be read]")
     ->type_name("NAME");
   command
+    .add_option("--level-set", choice.level_set,
+      "What becomes of an OpenVDB file's level set: fog (a density, 0 at the surface, 1 from the band's "
+      "depth on) or distance (as it is) [" + choice.level_set + "]")
+    ->check(one_of({ "fog", "distance" }))
+    ->type_name("HOW");
+  command
     .add_option("--series", choice.series,
       "Which series of a DICOM folder: its number in the list that the error without a choice gives, "
       "or its UID [the only one]")
