@@ -7,7 +7,7 @@
 #endif
 
 #include "data-generators/lanes-inl.h"
-#include "data-generators/noise.h"
+#include "data-generators/noise_field.h"
 #include "data-generators/random.h"
 
 BRUME_LANES_BEGIN
