@@ -13,9 +13,8 @@ BRUME_LANES_BEGIN
 void heap_cloud_target(const HeapCloud& cloud, const PlaceBlock& places, double time, float* out)
 {
   const glm::dvec3 drift = drift_of(cloud.wind, time);
-  for_each_packet(places,
-    out,
-    [&](const Place& p, const Box&) { return heap_cloud(cloud, p, drift); });
+  for_each_packet(
+    places, out, [&](const Place& p, const Box&) { return heap_cloud(cloud, p, drift); });
 }
 
 BRUME_LANES_END
@@ -24,8 +23,7 @@ BRUME_LANES_END
 namespace brume
 {
 HWY_EXPORT(heap_cloud_target);
-void heap_cloud_packets(
-  const HeapCloud& cloud, const PlaceBlock& places, double time, float* out)
+void heap_cloud_packets(const HeapCloud& cloud, const PlaceBlock& places, double time, float* out)
 {
   HWY_DYNAMIC_DISPATCH(heap_cloud_target)(cloud, places, time, out);
 }

@@ -44,7 +44,10 @@ glm::dvec3 upward_direction(RandomSequence& random)
   }
 }
 
-void add_buds(std::vector<Sphere>& spheres, const Sphere& parent, int generation, RandomSequence& random)
+void add_buds(std::vector<Sphere>& spheres,
+  const Sphere& parent,
+  int generation,
+  RandomSequence& random)
 {
   spheres.push_back(parent);
   if (generation == 0)
@@ -140,7 +143,8 @@ Cumulus::Cumulus(const CumulusOptions& options)
 
   // The pile's heights, stretched from its base and top to those that are asked for.
   const double base = options.base > 0.0 ? options.base / options.width : base_height;
-  const double top = options.top > 0.0 ? options.top / options.width : base + top_height - base_height;
+  const double top =
+    options.top > 0.0 ? options.top / options.width : base + top_height - base_height;
   require(base >= HeapCloud::below_base && top > base && top < 20.0,
     "the base must be at 0.03 width or higher, and the top above it, below 20 widths");
   const double stretch = (top - base) / (top_height - base_height);

@@ -24,10 +24,10 @@ struct CumulusOptions
   /// lengths below. The cloud itself is some 0.75 width across. Above 0.
   double width = 2000.0;
 
-  /// Height of the cloud's base over the box's floor, and of its top, metres. 0 and below: 0.08 width,
-  /// and 0.44 width above the base. The pile is stretched between the two (its noise is not), and the
-  /// box ends 0.08 width above the top. The base is at 0.03 width or above; the highest tower ends
-  /// near the top, within some tenths of the cloud's height.
+  /// Height of the cloud's base over the box's floor, and of its top, metres. 0 and below: 0.08
+  /// width, and 0.44 width above the base. The pile is stretched between the two (its noise is
+  /// not), and the box ends 0.08 width above the top. The base is at 0.03 width or above; the
+  /// highest tower ends near the top, within some tenths of the cloud's height.
   double base = 0.0;
   double top = 0.0;
 

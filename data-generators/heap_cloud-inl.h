@@ -23,10 +23,9 @@ public:
     Real cell[3];
     for (int a = 0; a < 3; ++a)
     {
-      cell[a] = floor_of(least(
-        most((place[a] - real(static_cast<float>(heap.lower()[a]))) *
-               real(static_cast<float>(heap.cells_by_length()[a])),
-          real(0.0f)),
+      cell[a] = floor_of(least(most((place[a] - real(static_cast<float>(heap.lower()[a]))) *
+                                      real(static_cast<float>(heap.cells_by_length()[a])),
+                                 real(0.0f)),
         real(PuffHeap::cells - 1.0f)));
     }
     const Real row = real(static_cast<float>(PuffHeap::cells));
@@ -78,8 +77,8 @@ private:
 BRUME_LANES_INLINE Real cloud_noise(const Place& at, std::uint32_t seed, int octaves)
 {
   const NoisePeriod never(0);
-  const Real billows = sum_octaves<Octave::Billow>(
-    at, substream(seed, 2), { std::min(octaves, 4), 2.0, 0.5 }, never);
+  const Real billows =
+    sum_octaves<Octave::Billow>(at, substream(seed, 2), { std::min(octaves, 4), 2.0, 0.5 }, never);
   const Real gradients =
     sum_octaves<Octave::Perlin>(at, substream(seed, 3), { octaves, 2.0, 0.5 }, never);
   const Real sum = real(0.5f) * (billows + (real(0.5f) + real(0.5f) * gradients));
@@ -131,19 +130,17 @@ BRUME_LANES_INLINE Real heap_cloud(const HeapCloud& c, const Place& p, const glm
     if (any(zero < ice))
     {
       const Place fibres{ at.x * wide(0.12), at.y * wide(0.5), at.z * wide(0.7) };
-      const Real soft = half + half * sum_octaves<Octave::Perlin>(fibres,
-                                        substream(c.seed, 4),
-                                        { c.octaves, 2.0, 0.5 },
-                                        NoisePeriod(0));
+      const Real soft =
+        half + half * sum_octaves<Octave::Perlin>(
+                        fibres, substream(c.seed, 4), { c.octaves, 2.0, 0.5 }, NoisePeriod(0));
       noise = lerp(noise, straight(soft, 0.25f, 2.0f), ice);
       crispness = crispness * (real(1.0f) - real(0.75f) * ice);
     }
   }
-  const Real body = held(crispness *
-                         (h * (real(0.8f) * noise + real(static_cast<float>(c.offset))) -
-                           real(static_cast<float>(HeapCloud::threshold))));
-  const Real base =
-    smooth(held((z - real(lowest) - real(0.03f) * noise) * real(1.0f / 0.045f)));
+  const Real body =
+    held(crispness * (h * (real(0.8f) * noise + real(static_cast<float>(c.offset))) -
+                       real(static_cast<float>(HeapCloud::threshold))));
+  const Real base = smooth(held((z - real(lowest) - real(0.03f) * noise) * real(1.0f / 0.045f)));
   const Real inside = least(least(sx, sy), sz);
   const Real fade = smooth(straight(inside,
     static_cast<float>(HeapCloud::empty_border),

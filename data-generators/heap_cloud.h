@@ -41,7 +41,6 @@ struct HeapCloud
 
 /// The density at a place and at all places of a block: the same bits.
 float heap_cloud_value(const HeapCloud& cloud, const glm::dvec3& place, double time);
-void heap_cloud_packets(
-  const HeapCloud& cloud, const PlaceBlock& places, double time, float* out);
+void heap_cloud_packets(const HeapCloud& cloud, const PlaceBlock& places, double time, float* out);
 
 }

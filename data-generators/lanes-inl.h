@@ -1,7 +1,8 @@
-// The vocabulary of the generators' kernels: a packet of numbers, of as many lanes as the SIMD target
-// at hand has, or of one lane of plain C++ where BRUME_ONE_LANE is defined. A kernel is written once,
-// in these words, and compiled for each target and for one lane: every operation here is rounded as
-// IEEE 754 says and none is contracted with another, so all of them give the same bits.
+// The vocabulary of the generators' kernels: a packet of numbers, of as many lanes as the SIMD
+// target at hand has, or of one lane of plain C++ where BRUME_ONE_LANE is defined. A kernel is
+// written once, in these words, and compiled for each target and for one lane: every operation here
+// is rounded as IEEE 754 says and none is contracted with another, so all of them give the same
+// bits.
 //
 // Included once for each target (Highway's foreach_target). A kernel's text stands between
 // BRUME_LANES_BEGIN and BRUME_LANES_END.
@@ -66,17 +67,47 @@ using Bits = std::uint32_t;
 using Yes = bool;
 constexpr int lane_count = 1;
 
-inline Real real(float x) { return x; }
-inline Wide wide(double x) { return x; }
-inline Bits bits(std::uint32_t x) { return x; }
+inline Real real(float x)
+{
+  return x;
+}
+inline Wide wide(double x)
+{
+  return x;
+}
+inline Bits bits(std::uint32_t x)
+{
+  return x;
+}
 
-inline Real least(Real a, Real b) { return a < b ? a : b; }
-inline Real most(Real a, Real b) { return a > b ? a : b; }
-inline Real root(Real a) { return std::sqrt(a); }
-inline Real magnitude(Real a) { return std::fabs(a); }
-inline Real select(Yes yes, Real a, Real b) { return yes ? a : b; }
-inline Yes both(Yes a, Yes b) { return a && b; }
-inline bool any(Yes a) { return a; }
+inline Real least(Real a, Real b)
+{
+  return a < b ? a : b;
+}
+inline Real most(Real a, Real b)
+{
+  return a > b ? a : b;
+}
+inline Real root(Real a)
+{
+  return std::sqrt(a);
+}
+inline Real magnitude(Real a)
+{
+  return std::fabs(a);
+}
+inline Real select(Yes yes, Real a, Real b)
+{
+  return yes ? a : b;
+}
+inline Yes both(Yes a, Yes b)
+{
+  return a && b;
+}
+inline bool any(Yes a)
+{
+  return a;
+}
 /// The largest whole number not above x, |x| < 2^31.
 inline Real floor_of(Real x)
 {
@@ -93,8 +124,14 @@ inline Wide floor_of(Wide x)
   const Wide whole = static_cast<Wide>(static_cast<std::int64_t>(x));
   return whole - (x < whole ? 1.0 : 0.0);
 }
-inline Real narrow(Wide x) { return static_cast<Real>(x); }
-inline Wide widen(Real x) { return static_cast<Wide>(x); }
+inline Real narrow(Wide x)
+{
+  return static_cast<Real>(x);
+}
+inline Wide widen(Real x)
+{
+  return static_cast<Wide>(x);
+}
 /// A whole number, |x| < 2^51, modulo 2^32.
 inline Bits low_bits(Wide whole)
 {
@@ -104,7 +141,10 @@ inline Bits low_bits(Wide whole)
   return static_cast<Bits>(all);
 }
 
-inline Bits times(Bits a, Bits b) { return a * b; }
+inline Bits times(Bits a, Bits b)
+{
+  return a * b;
+}
 template <int n>
 inline Bits shift_right(Bits a)
 {
@@ -115,8 +155,14 @@ inline Bits shift_left(Bits a)
 {
   return a << n;
 }
-inline Bits select_equal(Bits a, Bits b, Bits yes, Bits no) { return a == b ? yes : no; }
-inline Yes is_equal(Bits a, Bits b) { return a == b; }
+inline Bits select_equal(Bits a, Bits b, Bits yes, Bits no)
+{
+  return a == b ? yes : no;
+}
+inline Yes is_equal(Bits a, Bits b)
+{
+  return a == b;
+}
 /// The sign of each number turned where bit 31 is set.
 inline Real turn_sign(Real x, Bits sign)
 {
@@ -127,16 +173,40 @@ inline Real turn_sign(Real x, Bits sign)
   return x;
 }
 /// a where bit 31 is set, else b.
-inline Real select_top(Bits top, Real a, Real b) { return top >> 31 ? a : b; }
+inline Real select_top(Bits top, Real a, Real b)
+{
+  return top >> 31 ? a : b;
+}
 /// Bits below 2^31 as numbers, and back (towards zero).
-inline Real to_real(Bits a) { return static_cast<Real>(static_cast<std::int32_t>(a)); }
-inline Bits to_bits(Real a) { return static_cast<Bits>(static_cast<std::int32_t>(a)); }
+inline Real to_real(Bits a)
+{
+  return static_cast<Real>(static_cast<std::int32_t>(a));
+}
+inline Bits to_bits(Real a)
+{
+  return static_cast<Bits>(static_cast<std::int32_t>(a));
+}
 
-inline Wide load_wide(const double* from) { return *from; }
-inline Real load_real(const float* from) { return *from; }
-inline void store(Bits a, std::uint32_t* to) { *to = a; }
-inline void store(Real a, float* to) { *to = a; }
-inline Real gather(const float* table, Bits index) { return table[index]; }
+inline Wide load_wide(const double* from)
+{
+  return *from;
+}
+inline Real load_real(const float* from)
+{
+  return *from;
+}
+inline void store(Bits a, std::uint32_t* to)
+{
+  *to = a;
+}
+inline void store(Real a, float* to)
+{
+  *to = a;
+}
+inline Real gather(const float* table, Bits index)
+{
+  return table[index];
+}
 
 #else
 
@@ -161,22 +231,52 @@ struct Wide
   hn::Vec<WideTag> lower, upper;
 };
 
-HWY_INLINE Real real(float x) { return hn::Set(RealTag(), x); }
+HWY_INLINE Real real(float x)
+{
+  return hn::Set(RealTag(), x);
+}
 HWY_INLINE Wide wide(double x)
 {
   const auto all = hn::Set(WideTag(), x);
   return { all, all };
 }
-HWY_INLINE Bits bits(std::uint32_t x) { return hn::Set(BitsTag(), x); }
+HWY_INLINE Bits bits(std::uint32_t x)
+{
+  return hn::Set(BitsTag(), x);
+}
 
-HWY_INLINE Real least(Real a, Real b) { return hn::Min(a, b); }
-HWY_INLINE Real most(Real a, Real b) { return hn::Max(a, b); }
-HWY_INLINE Real root(Real a) { return hn::Sqrt(a); }
-HWY_INLINE Real magnitude(Real a) { return hn::Abs(a); }
-HWY_INLINE Real select(Yes yes, Real a, Real b) { return hn::IfThenElse(yes, a, b); }
-HWY_INLINE Yes both(Yes a, Yes b) { return hn::And(a, b); }
-HWY_INLINE bool any(Yes a) { return !hn::AllFalse(RealTag(), a); }
-HWY_INLINE Real floor_of(Real x) { return hn::Floor(x); }
+HWY_INLINE Real least(Real a, Real b)
+{
+  return hn::Min(a, b);
+}
+HWY_INLINE Real most(Real a, Real b)
+{
+  return hn::Max(a, b);
+}
+HWY_INLINE Real root(Real a)
+{
+  return hn::Sqrt(a);
+}
+HWY_INLINE Real magnitude(Real a)
+{
+  return hn::Abs(a);
+}
+HWY_INLINE Real select(Yes yes, Real a, Real b)
+{
+  return hn::IfThenElse(yes, a, b);
+}
+HWY_INLINE Yes both(Yes a, Yes b)
+{
+  return hn::And(a, b);
+}
+HWY_INLINE bool any(Yes a)
+{
+  return !hn::AllFalse(RealTag(), a);
+}
+HWY_INLINE Real floor_of(Real x)
+{
+  return hn::Floor(x);
+}
 
 HWY_INLINE Wide operator+(Wide a, Wide b)
 {
@@ -194,11 +294,13 @@ HWY_INLINE Wide operator/(Wide a, Wide b)
 {
   return { hn::Div(a.lower, b.lower), hn::Div(a.upper, b.upper) };
 }
-HWY_INLINE Wide floor_of(Wide x) { return { hn::Floor(x.lower), hn::Floor(x.upper) }; }
+HWY_INLINE Wide floor_of(Wide x)
+{
+  return { hn::Floor(x.lower), hn::Floor(x.upper) };
+}
 HWY_INLINE Real narrow(Wide x)
 {
-  return hn::Combine(
-    RealTag(), hn::DemoteTo(HalfTag(), x.upper), hn::DemoteTo(HalfTag(), x.lower));
+  return hn::Combine(RealTag(), hn::DemoteTo(HalfTag(), x.upper), hn::DemoteTo(HalfTag(), x.lower));
 }
 HWY_INLINE Wide widen(Real x)
 {
@@ -213,7 +315,10 @@ HWY_INLINE Bits low_bits(Wide whole)
     hn::TruncateTo(HalfBitsTag(), hn::BitCast(WideBitsTag(), shifted.lower)));
 }
 
-HWY_INLINE Bits times(Bits a, Bits b) { return hn::Mul(a, b); }
+HWY_INLINE Bits times(Bits a, Bits b)
+{
+  return hn::Mul(a, b);
+}
 template <int n>
 HWY_INLINE Bits shift_right(Bits a)
 {
@@ -228,23 +333,30 @@ HWY_INLINE Bits select_equal(Bits a, Bits b, Bits yes, Bits no)
 {
   return hn::IfThenElse(hn::Eq(a, b), yes, no);
 }
-HWY_INLINE Yes is_equal(Bits a, Bits b) { return hn::RebindMask(RealTag(), hn::Eq(a, b)); }
+HWY_INLINE Yes is_equal(Bits a, Bits b)
+{
+  return hn::RebindMask(RealTag(), hn::Eq(a, b));
+}
 HWY_INLINE Real turn_sign(Real x, Bits sign)
 {
-  return hn::BitCast(RealTag(),
-    hn::Xor(hn::BitCast(BitsTag(), x), hn::And(sign, hn::Set(BitsTag(), 0x80000000u))));
+  return hn::BitCast(
+    RealTag(), hn::Xor(hn::BitCast(BitsTag(), x), hn::And(sign, hn::Set(BitsTag(), 0x80000000u))));
 }
 HWY_INLINE Real select_top(Bits top, Real a, Real b)
 {
 #if HWY_TARGET == HWY_SSSE3 // has no blend by the sign alone, which Highway 1.0 forgets
   return hn::IfThenElse(
-    hn::MaskFromVec(
-      hn::BitCast(RealTag(), hn::BroadcastSignBit(hn::BitCast(WholeTag(), top)))), a, b);
+    hn::MaskFromVec(hn::BitCast(RealTag(), hn::BroadcastSignBit(hn::BitCast(WholeTag(), top)))),
+    a,
+    b);
 #else
   return hn::IfNegativeThenElse(hn::BitCast(RealTag(), top), a, b);
 #endif
 }
-HWY_INLINE Real to_real(Bits a) { return hn::ConvertTo(RealTag(), hn::BitCast(WholeTag(), a)); }
+HWY_INLINE Real to_real(Bits a)
+{
+  return hn::ConvertTo(RealTag(), hn::BitCast(WholeTag(), a));
+}
 HWY_INLINE Bits to_bits(Real a)
 {
   return hn::BitCast(BitsTag(), hn::ConvertTo(WholeTag(), a));
@@ -254,9 +366,18 @@ HWY_INLINE Wide load_wide(const double* from)
 {
   return { hn::LoadU(WideTag(), from), hn::LoadU(WideTag(), from + lane_count / 2) };
 }
-HWY_INLINE Real load_real(const float* from) { return hn::LoadU(RealTag(), from); }
-HWY_INLINE void store(Bits a, std::uint32_t* to) { hn::StoreU(a, BitsTag(), to); }
-HWY_INLINE void store(Real a, float* to) { hn::StoreU(a, RealTag(), to); }
+HWY_INLINE Real load_real(const float* from)
+{
+  return hn::LoadU(RealTag(), from);
+}
+HWY_INLINE void store(Bits a, std::uint32_t* to)
+{
+  hn::StoreU(a, BitsTag(), to);
+}
+HWY_INLINE void store(Real a, float* to)
+{
+  hn::StoreU(a, RealTag(), to);
+}
 HWY_INLINE Real gather(const float* table, Bits index)
 {
   return hn::GatherIndex(RealTag(), table, hn::BitCast(WholeTag(), index));
@@ -290,9 +411,9 @@ BRUME_LANES_INLINE Real smooth(Real t)
   return t * t * (real(3.0f) - real(2.0f) * t);
 }
 
-/// Calls `kernel(place, box)`, which gives a Real, for all places of a block, a packet at a time, and
-/// writes what it gives. `box` holds the packet's places. The lanes of the last packet that are left
-/// over repeat a place.
+/// Calls `kernel(place, box)`, which gives a Real, for all places of a block, a packet at a time,
+/// and writes what it gives. `box` holds the packet's places. The lanes of the last packet that are
+/// left over repeat a place.
 template <class Kernel>
 BRUME_LANES_INLINE void for_each_packet(const PlaceBlock& places, float* out, const Kernel& kernel)
 {
@@ -357,10 +478,12 @@ BRUME_LANES_INLINE void for_each_packet(const PlaceBlock& places, float* out, co
       px[lane] = xs[i];
       py[lane] = y;
       pz[lane] = z;
-      box.lower = { std::min(box.lower.x, xs[i]), std::min(box.lower.y, y),
-        std::min(box.lower.z, z) };
-      box.upper = { std::max(box.upper.x, xs[i]), std::max(box.upper.y, y),
-        std::max(box.upper.z, z) };
+      box.lower = {
+        std::min(box.lower.x, xs[i]), std::min(box.lower.y, y), std::min(box.lower.z, z)
+      };
+      box.upper = {
+        std::max(box.upper.x, xs[i]), std::max(box.upper.y, y), std::max(box.upper.z, z)
+      };
       if (++i == places.count.x)
       {
         next_row();

@@ -110,14 +110,12 @@ BRUME_LANES_INLINE Real perlin_in(const Cell& c, std::uint32_t seed)
     const Bits l = k == 0 ? c.z.at : c.z.after;
     const Bits near_row = c.y.at + l;
     const Bits far_row = c.y.after + l;
-    const Real near =
-      lerp(gradient(mix_bits((c.x.at + near_row) ^ key), x, y, dz),
-        gradient(mix_bits((c.x.after + near_row) ^ key), x - one, y, dz),
-        u);
-    const Real far =
-      lerp(gradient(mix_bits((c.x.at + far_row) ^ key), x, y - one, dz),
-        gradient(mix_bits((c.x.after + far_row) ^ key), x - one, y - one, dz),
-        u);
+    const Real near = lerp(gradient(mix_bits((c.x.at + near_row) ^ key), x, y, dz),
+      gradient(mix_bits((c.x.after + near_row) ^ key), x - one, y, dz),
+      u);
+    const Real far = lerp(gradient(mix_bits((c.x.at + far_row) ^ key), x, y - one, dz),
+      gradient(mix_bits((c.x.after + far_row) ^ key), x - one, y - one, dz),
+      u);
     layer[k] = lerp(near, far, v);
   }
   const Real value = lerp(layer[0], layer[1], w) / real(largest_perlin);
@@ -207,10 +205,10 @@ BRUME_LANES_INLINE Real simplex(const Place& p, std::uint32_t seed)
     const Real dx = x - u + real(out), dy = y - v + real(out), dz = z - w + real(out);
     Real t = most(real(0.5f) - (dx * dx + dy * dy + dz * dz), zero);
     t = t * t;
-    const Bits h = mix_bits((a + times(to_bits(u), bits(axis_factor[0])) + b +
-                              times(to_bits(v), bits(axis_factor[1])) + c +
-                              times(to_bits(w), bits(axis_factor[2]))) ^
-                            key);
+    const Bits h = mix_bits(
+      (a + times(to_bits(u), bits(axis_factor[0])) + b + times(to_bits(v), bits(axis_factor[1])) +
+        c + times(to_bits(w), bits(axis_factor[2]))) ^
+      key);
     return t * t * gradient(h, dx, dy, dz);
   };
   const Real sum = corner(zero, zero, zero, 0.0f) + corner(x1, y1, z1, 1.0f / 6.0f) +
@@ -219,9 +217,8 @@ BRUME_LANES_INLINE Real simplex(const Place& p, std::uint32_t seed)
   return select(is_valid(p), value, zero);
 }
 
-
-/// The frequency of an octave along an axis, and its period in cells: where the noise is to tile, the
-/// frequency is the nearest that has a whole number of cells in a period.
+/// The frequency of an octave along an axis, and its period in cells: where the noise is to tile,
+/// the frequency is the nearest that has a whole number of cells in a period.
 struct OctaveScale
 {
   glm::dvec3 frequency, period;
@@ -255,8 +252,10 @@ enum class Octave
 };
 
 template <Octave kind>
-BRUME_LANES_INLINE Real sum_octaves(
-  const Place& p, std::uint32_t seed, const NoiseOctaves& octaves, const glm::ivec3& period)
+BRUME_LANES_INLINE Real sum_octaves(const Place& p,
+  std::uint32_t seed,
+  const NoiseOctaves& octaves,
+  const glm::ivec3& period)
 {
   double frequency = 1.0, amplitude = 1.0, weight = 0.0;
   Wide sum = wide(0.0);
@@ -290,8 +289,10 @@ BRUME_LANES_INLINE Real sum_octaves(
   return weight > 0.0 ? narrow(sum / wide(weight)) : real(0.0f);
 }
 
-BRUME_LANES_INLINE Real perlin_worley(
-  const Place& p, std::uint32_t seed, const NoiseOctaves& octaves, const glm::ivec3& period)
+BRUME_LANES_INLINE Real perlin_worley(const Place& p,
+  std::uint32_t seed,
+  const NoiseOctaves& octaves,
+  const glm::ivec3& period)
 {
   const Real gradients =
     real(0.5f) + real(0.5f) * sum_octaves<Octave::Perlin>(p, substream(seed, 0), octaves, period);
@@ -300,8 +301,8 @@ BRUME_LANES_INLINE Real perlin_worley(
 }
 
 /// The place moved by three noises of one cell.
-BRUME_LANES_INLINE Place warp(
-  const Place& p, double scale, double amplitude, std::uint32_t seed, const glm::ivec3& period)
+BRUME_LANES_INLINE Place
+warp(const Place& p, double scale, double amplitude, std::uint32_t seed, const glm::ivec3& period)
 {
   if (!(scale > 0.0) || amplitude == 0.0)
   {

@@ -99,7 +99,7 @@ NoiseField::NoiseField(const NoiseOptions& options)
   require(std::isfinite(options.warp_amplitude) && std::isfinite(options.warp_size),
     "the warp must be finite");
   require(options.kind != NoiseKind::Simplex ||
-      (options.period.x <= 0 && options.period.y <= 0 && options.period.z <= 0),
+            (options.period.x <= 0 && options.period.y <= 0 && options.period.z <= 0),
     "simplex noise does not tile: leave the period 0, or take another kind");
 }
 

@@ -29,8 +29,8 @@ struct NoiseOptions
 
   NoiseOctaves octaves;
 
-  /// Domain warp, both in features of the first octave: the size of its eddies (0: no warp), and the
-  /// largest shift along an axis.
+  /// Domain warp, both in features of the first octave: the size of its eddies (0: no warp), and
+  /// the largest shift along an axis.
   double warp_size = 0.0;
   double warp_amplitude = 0.0;
 
@@ -42,8 +42,8 @@ struct NoiseOptions
 /// Noise as a field. It does not move: time does not matter. Highway's targets all give the bits of
 /// value(), which evaluates one place in plain C++.
 ///
-/// Throws std::invalid_argument from the constructor for options out of their range, and for simplex
-/// noise with a period.
+/// Throws std::invalid_argument from the constructor for options out of their range, and for
+/// simplex noise with a period.
 class NoiseField : public Field
 {
 public:

@@ -69,8 +69,7 @@ PuffHeap::PuffHeap(const std::vector<Puff>& puffs, const Box& box, double reach)
 
 int PuffHeap::cell_of(double x, int axis) const
 {
-  return static_cast<int>(
-    std::clamp((x - m_box.lower[axis]) * m_scale[axis], 0.0, cells - 1.0));
+  return static_cast<int>(std::clamp((x - m_box.lower[axis]) * m_scale[axis], 0.0, cells - 1.0));
 }
 
 double PuffHeap::most_in(const Box& box) const

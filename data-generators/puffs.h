@@ -1,5 +1,5 @@
-// What clouds of heaped shape are piled from: soft ellipsoids, sorted into cells so that a place asks
-// only those that reach it. Internal to the generators.
+// What clouds of heaped shape are piled from: soft ellipsoids, sorted into cells so that a place
+// asks only those that reach it. Internal to the generators.
 #pragma once
 
 #include "data-generators/field.h"
@@ -12,7 +12,8 @@
 namespace brume
 {
 
-/// A soft ellipsoid with axes along x, y, z: f(p) = 1 - |(p - centre) / radii|^2, held to 0 and above.
+/// A soft ellipsoid with axes along x, y, z: f(p) = 1 - |(p - centre) / radii|^2, held to 0 and
+/// above.
 struct Puff
 {
   glm::dvec3 centre;

@@ -19,7 +19,7 @@ namespace
 {
 
 constexpr int edge = SparseVoxels::brick_edge;
-constexpr int block_bricks = 8; ///< bricks along a block, the unit of work of the first pass
+constexpr int block_bricks = 8;        ///< bricks along a block, the unit of work of the first pass
 constexpr double topology_share = 0.3; ///< of the time, as progress counts it
 
 /// The wish to stop, on its way out of the second pass.
@@ -144,8 +144,9 @@ private:
       box.upper[axis] = std::max(a[axis], b[axis]);
     }
     const FieldRange range = m_field.range_in(box, m_time);
-    const auto place_of = [](const glm::ivec3& brick)
-    { return BrickPlace{ { brick.x, brick.y, brick.z } }; };
+    const auto place_of = [](const glm::ivec3& brick) {
+      return BrickPlace{ { brick.x, brick.y, brick.z } };
+    };
     if (range.lower == range.upper)
     {
       if (range.lower == m_options.background)
@@ -190,8 +191,7 @@ private:
         { m_grid.origin, m_grid.spacing, first + glm::ivec3(0, 0, k), { count.x, count.y, 1 } },
         m_time,
         layer);
-      if (!std::all_of(
-            layer, layer + size, [this](float v) { return v == m_options.background; }))
+      if (!std::all_of(layer, layer + size, [this](float v) { return v == m_options.background; }))
       {
         return true;
       }

@@ -32,17 +32,18 @@ struct SparseSample
   bool stopped = false; ///< `progress` asked for it
 };
 
-/// The field at the voxels' centres of a grid, in bricks of 8^3 wherever a voxel is active; all other
-/// voxels, and those of the bricks beyond the grid's ends, are the background.
+/// The field at the voxels' centres of a grid, in bricks of 8^3 wherever a voxel is active; all
+/// other voxels, and those of the bricks beyond the grid's ends, are the background.
 ///
-/// Two passes over the grid, both parallel. The first finds the topology: blocks of bricks are halved
-/// and halved again, and left out as soon as Field::range_in() proves them to be all background, or
-/// become a tile where it proves them to have one other value; of a brick that is left, so many
-/// values are computed as it takes to meet one that is active. The second fills the bricks.
+/// Two passes over the grid, both parallel. The first finds the topology: blocks of bricks are
+/// halved and halved again, and left out as soon as Field::range_in() proves them to be all
+/// background, or become a tile where it proves them to have one other value; of a brick that is
+/// left, so many values are computed as it takes to meet one that is active. The second fills the
+/// bricks.
 ///
 /// Memory: what SparseVoxels takes, and while it is made 12 bytes more a brick: it goes with the
-/// active bricks, not with the grid. The voxels are those of sample(), to the bit, for any number of
-/// threads.
+/// active bricks, not with the grid. The voxels are those of sample(), to the bit, for any number
+/// of threads.
 ///
 /// Throws std::invalid_argument for a type that is no floating-point one, a background that is NaN,
 /// and a grid of more than 2^20 voxels along an axis.

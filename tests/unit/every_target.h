@@ -13,8 +13,9 @@ namespace brume_tests
 {
 
 /// The values of a block on each target that Highway has here, against value(), place by place.
-inline void expect_bits_of_one_lane(
-  const brume::Field& field, const brume::PlaceBlock& places, double time)
+inline void expect_bits_of_one_lane(const brume::Field& field,
+  const brume::PlaceBlock& places,
+  double time)
 {
   std::vector<float> one(places.size());
   field.brume::Field::values(places, time, one.data());

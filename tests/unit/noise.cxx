@@ -370,7 +370,8 @@ TEST(Noise, HasTheSameBitsEverywhere)
     fingerprint([](const dvec3& p) { return brume::worley_noise(p, 1); }), 2003843732513936470ull);
   EXPECT_EQ(fingerprint([](const dvec3& p) { return brume::fbm(brume::warp(p, 3, 1, 2), 1); }),
     646357105422222724ull);
-  EXPECT_EQ(fingerprint([](const dvec3& p) { return brume::simplex_noise(p, 1); }), 2215778533023660991ull);
+  EXPECT_EQ(
+    fingerprint([](const dvec3& p) { return brume::simplex_noise(p, 1); }), 2215778533023660991ull);
   EXPECT_EQ(fingerprint([](const dvec3& p) { return brume::perlin_worley_noise(p, 1); }),
     11744880916540874812ull);
 }
