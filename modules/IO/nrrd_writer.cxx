@@ -45,6 +45,16 @@ std::string vector_text(const std::array<double, 12>& affine, int column)
          exact(affine[8 + column]) + ")";
 }
 
+/// Without line ends, and blanks at its ends.
+std::string line_of(std::string text)
+{
+  for (char& c : text)
+  {
+    c = static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return trimmed(text);
+}
+
 /// In quotes, which the format asks for; a quote or a line end within cannot be had.
 std::string quoted(std::string text)
 {
@@ -63,6 +73,8 @@ void write_nrrd(ImageFile& image, const std::string& path)
   const std::string first = several ? std::to_string(image.components) + " " : "";
   std::string head = "NRRD0005\n# Complete NRRD file format specification at:\n"
                      "# http://teem.sourceforge.net/nrrd/format.html\n";
+  const std::string name = line_of(image.array);
+  head += name.empty() ? "" : "content: " + name + "\n";
   head += std::string("type: ") + type_name(image.scalar) + "\n";
   head += std::string("dimension: ") + (several ? "4" : "3") + "\n";
   head += image.patient ? "space: right-anterior-superior\n" : "space dimension: 3\n";

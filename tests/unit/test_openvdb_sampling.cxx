@@ -150,9 +150,9 @@ Differences compare(vtkBrumeSparseVolume* volume, const openvdb::FloatGrid& grid
     d.reference = std::max(d.reference, std::abs(reference->value(index, 0) - value));
     singles.emplace_back(index);
     const glm::vec3& s = singles.back(); // rounded: OpenVDB is asked at the very same place
-    expected.push_back(sampler.isSample({ double(s.x) + voxels.origin()[0],
+    expected.push_back(sampler.isSample(openvdb::Vec3d(double(s.x) + voxels.origin()[0],
       double(s.y) + voxels.origin()[1],
-      double(s.z) + voxels.origin()[2] }));
+      double(s.z) + voxels.origin()[2])));
   }
   const std::vector<float> packets = packet_values(voxels, singles);
   for (std::size_t i = 0; i < packets.size(); ++i)

@@ -118,7 +118,10 @@ struct Ear
   double last = 0.0;
   bool rises = true;
 
-  explicit Ear(vtkAlgorithm* algorithm)
+  vtkAlgorithm* algorithm;
+
+  explicit Ear(vtkAlgorithm* heard)
+    : algorithm(heard)
   {
     this->command->SetClientData(this);
     this->command->SetCallback(
@@ -138,9 +141,12 @@ struct Ear
           algorithm->AbortExecuteOn();
         }
       });
-    algorithm->AddObserver(vtkCommand::ErrorEvent, this->command);
-    algorithm->AddObserver(vtkCommand::ProgressEvent, this->command);
+    this->algorithm->AddObserver(vtkCommand::ErrorEvent, this->command);
+    this->algorithm->AddObserver(vtkCommand::ProgressEvent, this->command);
   }
+  ~Ear() { this->algorithm->RemoveObserver(this->command); }
+  Ear(const Ear&) = delete;
+  Ear& operator=(const Ear&) = delete;
 };
 
 struct Format
