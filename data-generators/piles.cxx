@@ -173,7 +173,7 @@ std::vector<Puff> pile_cumulonimbus(const CloudOptions& o)
   }
   // What overshoots: a low dome over the tower.
   add_buds(
-    puffs, { place(foot + downwind * 0.075, 0.9), { 0.1, 0.1, 0.1 * height } }, 1, random);
+    puffs, { place(foot + downwind * 0.075, 0.87), { 0.1, 0.1, 0.07 * height } }, 1, random);
   draw_in(puffs);
   return puffs;
 }
