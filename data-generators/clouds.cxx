@@ -48,9 +48,8 @@ public:
     {
       m_cloud.ice = (o.base + 0.62 * (o.top - o.base)) / o.width;
     }
-    m_heap = std::make_unique<PuffHeap>(puffs,
-      Box{ { -0.5, -0.5, 0.0 }, { 0.5, 0.5, m_cloud.height } },
-      o.warp_amplitude / o.width);
+    m_heap = std::make_unique<PuffHeap>(
+      puffs, Box{ { -0.5, -0.5, 0.0 }, { 0.5, 0.5, m_cloud.height } }, o.warp_amplitude / o.width);
     m_cloud.heap = m_heap.get();
   }
 
@@ -90,7 +89,7 @@ public:
     }
     // Cells are some times wider than the layer is thick; patches are wider still.
     m_cloud.cover_size = o.kind == CloudKind::Stratocumulus ? 1.6 * m_cloud.height
-      : o.kind == CloudKind::Cirrus                         ? 1.4 * m_cloud.height
+                         : o.kind == CloudKind::Cirrus      ? 1.4 * m_cloud.height
                                                             : 5.0 * m_cloud.height;
     this->settle_coverage();
   }
@@ -115,11 +114,9 @@ public:
     const Box all = this->bounds();
     const double border = 0.49 * LayerCloud::empty_border * m_cloud.options.width;
     const double room = 0.49 * LayerCloud::empty_above * m_cloud.height;
-    const bool outside = box.upper.x < all.lower.x + border ||
-                         box.lower.x > all.upper.x - border ||
-                         box.upper.y < all.lower.y + border ||
-                         box.lower.y > all.upper.y - border || box.upper.z < all.lower.z + room ||
-                         box.lower.z > all.upper.z - room;
+    const bool outside = box.upper.x < all.lower.x + border || box.lower.x > all.upper.x - border ||
+                         box.upper.y < all.lower.y + border || box.lower.y > all.upper.y - border ||
+                         box.upper.z < all.lower.z + room || box.lower.z > all.upper.z - room;
     return { 0.0f, outside ? 0.0f : 1.0f };
   }
 
@@ -140,9 +137,8 @@ private:
     // What the noise takes off the edges, at its mean of 1/2, by the kernel's slopes.
     const CloudOptions& o = m_cloud.options;
     const double slope = o.kind == CloudKind::Stratocumulus ? 6.0 : 2.5;
-    const double frayed = o.kind == CloudKind::Cirrus
-      ? -0.08
-      : std::min(0.25 / (0.4 + o.offset), 1.0) / slope;
+    const double frayed =
+      o.kind == CloudKind::Cirrus ? 0.0 : std::min(0.25 / (0.4 + o.offset), 1.0) / slope;
     m_cloud.cover_threshold = covers[static_cast<std::size_t>(at)] - frayed;
     if (m_cloud.options.coverage == 1.0)
     {
@@ -233,7 +229,8 @@ std::unique_ptr<Field> make_cloud(const CloudOptions& options)
   CloudOptions o = options;
   const auto above_zero = [](double x) { return x > 0.0 && std::isfinite(x); };
   require(above_zero(o.width), "the width must be above 0");
-  require(std::isfinite(o.base) && std::isfinite(o.top) && o.base < o.top,
+  require(std::isfinite(o.base) && std::isfinite(o.top) &&
+            (o.base < o.top || o.kind == CloudKind::Cumulus), // which looks for itself
     "the base must be below the top");
   require(o.top - o.base < 20.0 * o.width, "the cloud must be lower than 20 widths");
   require(o.coverage >= 0.0 && o.coverage <= 1.0, "the coverage must be in [0, 1]");

@@ -31,12 +31,14 @@ struct CloudOptions
   /// Width of the box: x and y in [-width/2, width/2]. Above 0.
   double width = 2000.0;
 
-  /// Heights of the cloud's base and of its top; base < top. What stands highest ends near the top,
+  /// Heights of the cloud's base and of its top; base < top. For a cumulus 0 is what its width
+  /// gives (0.08 width, and 0.44 width above the base). What stands highest ends near the top,
   /// within some tenths of the cloud's height; layers lie strictly between. Heaps (cumulus, cumulus
   /// field, cumulonimbus) have a box from 0 to a little above the top, and need a base of
-  /// 0.03 width or more. A layer's box reaches a tenth of its height below its base and above its top.
-  double base = 160.0;
-  double top = 1040.0;
+  /// 0.03 width or more. A layer's box reaches a tenth of its height below its base and above its
+  /// top.
+  double base = 0.0;
+  double top = 0.0;
 
   /// Fraction of the ground under cloud, for cumulus fields and layers, away from the box's sides,
   /// where clouds get fewer. 0 … 1. The noise that frays the edges takes a little off.
@@ -59,24 +61,24 @@ struct CloudOptions
   double warp_amplitude = 50.0;
   double warp_size = 300.0;
 
-  /// Wind, metres a second. Layers move with it, and come in at the box's upwind side; a heap stays,
-  /// and its noise moves through it. The streaks of cirrus lie along its level part (along x where
-  /// there is none).
+  /// Wind, metres a second. Layers move with it, and come in at the box's upwind side; a heap
+  /// stays, and its noise moves through it. The streaks of cirrus lie along its level part (along x
+  /// where there is none).
   glm::dvec3 wind{ 4.0, 1.0, 1.5 };
 };
 
-/// Usual options of a kind: heights, extents and wind as such clouds have them over middle latitudes
-/// (World Meteorological Organization, International Cloud Atlas, 2017).
+/// Usual options of a kind: heights, extents and wind as such clouds have them over middle
+/// latitudes (World Meteorological Organization, International Cloud Atlas, 2017).
 CloudOptions cloud_defaults(CloudKind kind);
 
 /// A cloud: its density, in [0, 1] without a unit, exactly 0 outside its box and at its faces.
-/// Multiply by an extinction per metre: some 0.02 to 0.1 for clouds of droplets, 0.0005 to 0.003 for
-/// cirrus.
+/// Multiply by an extinction per metre: some 0.02 to 0.1 for clouds of droplets, 0.0005 to 0.003
+/// for cirrus.
 ///
-/// Heaps are soft ellipsoids in a pile, eroded by noise: the recipe of cumulus.h. A cumulus field is
-/// many small piles, scattered until they cover enough; a cumulonimbus is a tower of ever larger
-/// heaps under flat ones that spread downwind, and from its freezing level on its noise is drawn out
-/// into fibres and its edge softens.
+/// Heaps are soft ellipsoids in a pile, eroded by noise: the recipe of cumulus.h. A cumulus field
+/// is many small piles, scattered until they cover enough; a cumulonimbus is a tower of ever larger
+/// heaps under flat ones that spread downwind, and from its freezing level on its noise is drawn
+/// out into fibres and its edge softens.
 ///
 /// Layers are a cover c(x, y) of noise, a profile over the height h in [0, 1] from base to top, and
 /// the same noise n to fray them, with w the warped place moved back by the wind:

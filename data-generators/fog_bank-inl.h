@@ -16,8 +16,8 @@ BRUME_LANES_INLINE Real ground_at(const HeightMap& map, Wide x, Wide y)
 {
   const auto along = [](Wide p, double origin, double spacing, int count)
   {
-    return least(most(narrow((p - wide(origin)) * wide(1.0 / spacing)), real(0.0f)),
-      real(count - 1.0f));
+    return least(
+      most(narrow((p - wide(origin)) * wide(1.0 / spacing)), real(0.0f)), real(count - 1.0f));
   };
   const Real u = along(x, map.origin.x, map.spacing.x, map.dimensions.x);
   const Real v = along(y, map.origin.y, map.spacing.y, map.dimensions.y);
@@ -39,9 +39,9 @@ BRUME_LANES_INLINE Real fog(const FogKernel& f, const Place& p, const glm::dvec3
   const Real half_width = real(static_cast<float>(0.5 * o.width));
   const Real z = narrow(p.z - wide(f.box.lower.z));
   const Real ceiling = real(static_cast<float>(f.box.upper.z - f.box.lower.z));
-  const Yes within = both(
-    both(magnitude(narrow(p.x)) <= half_width, magnitude(narrow(p.y)) <= half_width),
-    both(zero <= z, z <= ceiling));
+  const Yes within =
+    both(both(magnitude(narrow(p.x)) <= half_width, magnitude(narrow(p.y)) <= half_width),
+      both(zero <= z, z <= ceiling));
   if (!any(within))
   {
     return zero;
@@ -60,9 +60,8 @@ BRUME_LANES_INLINE Real fog(const FogKernel& f, const Place& p, const glm::dvec3
   if (o.kind == FogKind::Valley)
   {
     // The fog ends where it meets the ground: that is known before any noise is.
-    const Real depth_of_ground =
-      narrow(p.z - wide(f.level)) - (ground_at(*f.ground, p.x, p.y) -
-                                      real(static_cast<float>(f.level)));
+    const Real depth_of_ground = narrow(p.z - wide(f.level)) - (ground_at(*f.ground, p.x, p.y) -
+                                                                 real(static_cast<float>(f.level)));
     const Yes above = both(within, real(static_cast<float>(-o.sink)) < depth_of_ground);
     if (!any(above))
     {

@@ -148,9 +148,8 @@ FieldRange FogBank::range_in(const Box& box, double) const
   {
     return { all_within ? 1.0f : 0.0f, 1.0f };
   }
-  if (o.kind == FogKind::Valley &&
-      (box.upper.z < this->lowest_ground(box) - o.sink - margin ||
-        box.lower.z > m_level + o.noise * o.softness + margin))
+  if (o.kind == FogKind::Valley && (box.upper.z < this->lowest_ground(box) - o.sink - margin ||
+                                     box.lower.z > m_level + o.noise * o.softness + margin))
   {
     return empty;
   }

@@ -63,16 +63,18 @@ struct FogOptions
   glm::dvec3 wind{ 1.5, 0.5, 0.0 };
 };
 
-/// The density of fog, in [0, 1] without a unit: multiply by the extinction of its thickest part, per
-/// metre (dense fog of 100 m visibility: 0.04; of 1 km: 0.004, by Koschmieder's 3.912 / visibility).
+/// The density of fog, in [0, 1] without a unit: multiply by the extinction of its thickest part,
+/// per metre (dense fog of 100 m visibility: 0.04; of 1 km: 0.004, by Koschmieder's 3.912 /
+/// visibility).
 ///
 ///   homogeneous   1
 ///   height        e^(-(z' - base) / scale_height) (1 - noise (1 - n)),  z' = z - noise H w / 2
 ///   valley        s((level' - z) / softness) (1 - noise (1 - n)) where z > ground - sink, else 0;
 ///                 level' = level + noise softness w
-/// with n in [0, 1] the noise of clouds (half billows, half fBm) at the place moved back by the wind,
-/// w in [-1, 1] wide waves of fBm, H the scale height, and s(t) = 3 t^2 - 2 t^3 held to [0, 1]. The
-/// height is held to 0 and above before it goes into e, so that the ground's fog is at most 1.
+/// with n in [0, 1] the noise of clouds (half billows, half fBm) at the place moved back by the
+/// wind, w in [-1, 1] wide waves of fBm, H the scale height, and s(t) = 3 t^2 - 2 t^3 held to [0,
+/// 1]. The height is held to 0 and above before it goes into e, so that the ground's fog is at
+/// most 1.
 ///
 /// It is 0 outside its box; at the box's faces it is not, but for a valley's ceiling.
 ///
@@ -81,8 +83,8 @@ class FogBank : public Field
 {
 public:
   /// `ground` is the height map of valley fog; null: valley_terrain(seed, width, relief).
-  explicit FogBank(
-    const FogOptions& options = {}, std::shared_ptr<const HeightMap> ground = nullptr);
+  explicit FogBank(const FogOptions& options = {},
+    std::shared_ptr<const HeightMap> ground = nullptr);
   ~FogBank() override;
 
   Box bounds() const override;

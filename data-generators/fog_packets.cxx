@@ -13,8 +13,7 @@ BRUME_LANES_BEGIN
 void fog_target(const FogKernel& kernel, const PlaceBlock& places, double time, float* out)
 {
   const glm::dvec3 drift = drift_of(kernel.options.wind, time);
-  for_each_packet(
-    places, out, [&](const Place& p, const Box&) { return fog(kernel, p, drift); });
+  for_each_packet(places, out, [&](const Place& p, const Box&) { return fog(kernel, p, drift); });
 }
 
 BRUME_LANES_END

@@ -140,8 +140,9 @@ BRUME_LANES_INLINE Real heap_cloud(const HeapCloud& c, const Place& p, const glm
   const Real body =
     held(crispness * (h * (real(0.8f) * noise + real(static_cast<float>(c.offset))) -
                        real(static_cast<float>(HeapCloud::threshold))));
-  const Real base = smooth(held((z - real(lowest) - real(static_cast<float>(c.below_base)) * noise) *
-         real(static_cast<float>(1.0 / (1.5 * c.below_base)))));
+  const Real base =
+    smooth(held((z - real(lowest) - real(static_cast<float>(c.below_base)) * noise) *
+                real(static_cast<float>(1.0 / (1.5 * c.below_base)))));
   const Real inside = least(least(sx, sy), sz);
   const Real fade = smooth(straight(inside,
     static_cast<float>(HeapCloud::empty_border),

@@ -12,8 +12,9 @@
 namespace brume
 {
 
-HeightMap HeightMap::from(
-  const std::function<double(double x, double y)>& ground, double width, int size)
+HeightMap HeightMap::from(const std::function<double(double x, double y)>& ground,
+  double width,
+  int size)
 {
   if (!(width > 0.0 && std::isfinite(width)) || size < 1 || size > 16384)
   {
@@ -84,9 +85,8 @@ HeightMap valley_terrain(std::uint32_t seed, double width, double relief)
       const double bend = perlin_noise({ 0.5, y / (0.5 * width), 0.5 }, substream(seed, 20));
       const double d = saturate(std::fabs(x - 0.12 * width * bend) / (0.36 * width));
       const double s = d * d * (3.0 - 2.0 * d);
-      const double f = fbm({ x / (0.22 * width), y / (0.22 * width), 0.5 },
-        substream(seed, 21),
-        { 6, 2.0, 0.5 });
+      const double f =
+        fbm({ x / (0.22 * width), y / (0.22 * width), 0.5 }, substream(seed, 21), { 6, 2.0, 0.5 });
       const double ridge = (1.0 - std::fabs(f)) * (1.0 - std::fabs(f));
       return relief * (0.6 * s + 0.4 * std::sqrt(s) * ridge);
     },

@@ -424,8 +424,8 @@ BRUME_LANES_INLINE Real smooth(Real t)
   return t * t * (real(3.0f) - real(2.0f) * t);
 }
 
-/// e^x for x in [-80, 0], within 3e-7 of it; lower x counts as -80, higher as 0. x = (n + f) ln 2 with
-/// f in [0, 1), and the series of e^(f ln 2).
+/// e^x for x in [-80, 0], within 3e-7 of it; lower x counts as -80, higher as 0. x = (n + f) ln 2
+/// with f in [0, 1), and the series of e^(f ln 2).
 BRUME_LANES_INLINE Real decay(Real x)
 {
   const Real t = least(most(x, real(-80.0f)), real(0.0f)) * real(1.44269504f);

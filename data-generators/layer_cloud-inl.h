@@ -30,8 +30,7 @@ BRUME_LANES_INLINE Real cover_noise(const LayerCloud& c, Wide x, Wide y)
   }
   if (c.options.kind == CloudKind::Cirrus)
   {
-    return sum_octaves<Octave::Perlin>(
-      { u * wide(0.35), v, level }, seed, { 3, 2.0, 0.5 }, never);
+    return sum_octaves<Octave::Perlin>({ u * wide(0.35), v, level }, seed, { 3, 2.0, 0.5 }, never);
   }
   return sum_octaves<Octave::Perlin>({ u, v, level }, seed, { 4, 2.0, 0.5 }, never);
 }
@@ -45,12 +44,10 @@ BRUME_LANES_INLINE Real layer_cloud(const LayerCloud& c, const Place& p, const g
   // Height in the layer, 0 at the base, 1 at the top; distance from the sides, in half widths.
   const Real h = narrow((p.z - wide(o.base)) * wide(1.0 / c.height));
   const Wide by_half = wide(2.0 / o.width);
-  const Real side =
-    one - most(magnitude(narrow(p.x * by_half)), magnitude(narrow(p.y * by_half)));
+  const Real side = one - most(magnitude(narrow(p.x * by_half)), magnitude(narrow(p.y * by_half)));
   const Yes within = both(real(static_cast<float>(LayerCloud::empty_border)) < side,
     both(real(static_cast<float>(-0.5 * LayerCloud::empty_above)) < h,
-      both(h < real(static_cast<float>(1.0 + 0.5 * LayerCloud::empty_above)),
-        is_valid(p))));
+      both(h < real(static_cast<float>(1.0 + 0.5 * LayerCloud::empty_above)), is_valid(p))));
   if (!any(within))
   {
     return zero;
@@ -72,8 +69,8 @@ BRUME_LANES_INLINE Real layer_cloud(const LayerCloud& c, const Place& p, const g
   const Real fade = smooth(straight(side,
     static_cast<float>(LayerCloud::empty_border),
     static_cast<float>(1.0 / (LayerCloud::border_fade - LayerCloud::empty_border))));
-  const Real cover = cover_noise(c, u, v) - real(static_cast<float>(c.cover_threshold)) -
-                     real(0.6f) * (one - fade);
+  const Real cover =
+    cover_noise(c, u, v) - real(static_cast<float>(c.cover_threshold)) - real(0.6f) * (one - fade);
   const Yes covered = both(within, zero < cover);
   if (!any(covered))
   {
@@ -87,8 +84,8 @@ BRUME_LANES_INLINE Real layer_cloud(const LayerCloud& c, const Place& p, const g
   if (o.kind == CloudKind::Cirrus)
   {
     const Place at{ u * by_detail * wide(0.11), v * by_detail, moved.z * by_detail * wide(0.4) };
-    const Real g = sum_octaves<Octave::Perlin>(
-      at, substream(o.seed, 12), { o.octaves, 2.0, 0.6 }, never);
+    const Real g =
+      sum_octaves<Octave::Perlin>(at, substream(o.seed, 12), { o.octaves, 2.0, 0.6 }, never);
     const Real ridge = held(one - real(2.6f) * magnitude(g));
     // Dense heads above, thin tails below.
     const Real body = smooth(held((one - h) * real(5.0f))) * smooth(held(h * real(1.6f)));
@@ -112,9 +109,8 @@ BRUME_LANES_INLINE Real layer_cloud(const LayerCloud& c, const Place& p, const g
     {
       // A sheet with a ragged base and a top in long waves.
       const Place waves{ u * wide(0.4 / c.cover_size), v * wide(1.0 / c.cover_size), wide(0.71) };
-      const Real wave =
-        half + half * sum_octaves<Octave::Perlin>(
-                        waves, substream(o.seed, 13), { 3, 2.0, 0.5 }, never);
+      const Real wave = half + half * sum_octaves<Octave::Perlin>(
+                                        waves, substream(o.seed, 13), { 3, 2.0, 0.5 }, never);
       const Real top = real(0.7f) + real(0.3f) * wave;
       const Real base = real(0.25f) * (one - wave) * noise;
       f = held(cover * real(2.5f)) * smooth(held((h - base) * real(4.0f))) *
@@ -123,10 +119,9 @@ BRUME_LANES_INLINE Real layer_cloud(const LayerCloud& c, const Place& p, const g
     density = held(crispness * (f * (real(0.8f) * noise + offset) -
                                  real(static_cast<float>(HeapCloud::threshold))));
   }
-  const Real ends = held((one + real(static_cast<float>(0.5 * LayerCloud::empty_above)) - h) *
-                         real(20.0f)) *
-                    held((h + real(static_cast<float>(0.5 * LayerCloud::empty_above))) *
-                         real(20.0f));
+  const Real ends =
+    held((one + real(static_cast<float>(0.5 * LayerCloud::empty_above)) - h) * real(20.0f)) *
+    held((h + real(static_cast<float>(0.5 * LayerCloud::empty_above))) * real(20.0f));
   return select(covered, density * ends, zero);
 }
 

@@ -54,8 +54,7 @@ void add_buds(std::vector<Puff>& puffs, const Puff& parent, int generations, Ran
   for (int b = 0; b < count; ++b)
   {
     const glm::dvec3 direction = upward_direction(random);
-    const glm::dvec3 centre =
-      parent.centre + direction * parent.radii * random.between(0.62, 0.8);
+    const glm::dvec3 centre = parent.centre + direction * parent.radii * random.between(0.62, 0.8);
     const Puff bud{ centre, parent.radii * random.between(0.42, 0.58) };
     add_buds(puffs, bud, generations - 1, random);
   }
@@ -69,23 +68,48 @@ std::vector<Puff> pile_cumulus_field(const CloudOptions& o)
   const double height = (o.top - o.base) / o.width;
   const double room = 0.5 - HeapCloud::border_fade;
 
-  // The ground under cloud is counted on a grid, so that overlaps count once.
+  // The ground under cloud is counted on a grid, so that overlaps count once, and each cloud stands
+  // where there is none yet.
   constexpr int side = 128;
   std::vector<char> covered(side * side, 0);
-  int count = 0;
-  const int wanted = static_cast<int>(o.coverage * side * side + 0.5);
-  for (int attempt = 0; attempt < 4000 && count < wanted; ++attempt)
+  const auto coordinate = [](int n) { return (n + 0.5) / side - 0.5; };
+  std::vector<int> open;
+  for (int n = 0; n < side * side; ++n)
   {
-    // Few large clouds and many small ones: a size falls off as its fourth root is even.
+    if (std::max(std::fabs(coordinate(n % side)), std::fabs(coordinate(n / side))) < room)
+    {
+      open.push_back(n);
+    }
+  }
+  const std::size_t left = static_cast<std::size_t>((1.0 - o.coverage) * open.size() + 0.5);
+  const auto cover = [&](double x, double y, double radius)
+  {
+    const auto first = [&](double c)
+    { return std::clamp(static_cast<int>((c - radius + 0.5) * side), 0, side - 1); };
+    const auto last = [&](double c)
+    { return std::clamp(static_cast<int>((c + radius + 0.5) * side), 0, side - 1); };
+    for (int j = first(y); j <= last(y); ++j)
+    {
+      for (int i = first(x); i <= last(x); ++i)
+      {
+        const double dx = coordinate(i) - x, dy = coordinate(j) - y;
+        if (dx * dx + dy * dy < radius * radius)
+        {
+          covered[j * side + i] = 1;
+        }
+      }
+    }
+  };
+  for (int cloud = 0; cloud < 1000 && open.size() > left; ++cloud)
+  {
+    // Few large clouds and many small ones.
     const double u = random.next();
     const double size = 0.25 + 0.75 * u * u * u;
-    const double reach = 0.75 * size * height;
-    if (reach >= room)
-    {
-      continue;
-    }
-    const glm::dvec2 centre(
-      random.between(reach - room, room - reach), random.between(reach - room, room - reach));
+    const double reach = std::min(0.75 * size * height, room);
+    const int n = open[static_cast<std::size_t>(random.next() * open.size())];
+    const glm::dvec2 centre(std::clamp(coordinate(n % side), reach - room, room - reach),
+      std::clamp(coordinate(n / side), reach - room, room - reach));
+    covered[n] = 1;
     const int towers = 2 + static_cast<int>(size * 5.0);
     for (int t = 0; t < towers; ++t)
     {
@@ -97,21 +121,14 @@ std::vector<Puff> pile_cumulus_field(const CloudOptions& o)
       {
         const Puff puff{ { x, y, z }, glm::dvec3(radius) };
         add_buds(puffs, puff, size > 0.5 ? 2 : 1, random);
-        for (int n = 0; n < side * side; ++n)
-        {
-          const double dx = (n % side + 0.5) / side - 0.5 - x;
-          const double dy = (n / side + 0.5) / side - 0.5 - y;
-          if (!covered[n] && dx * dx + dy * dy < radius * radius)
-          {
-            covered[n] = 1;
-            ++count;
-          }
-        }
+        cover(x, y, radius);
         radius *= random.between(0.84, 0.94);
         x += radius * random.between(-0.25, 0.25);
         y += radius * random.between(-0.25, 0.25);
       }
     }
+    open.erase(std::remove_if(open.begin(), open.end(), [&](int at) { return covered[at] != 0; }),
+      open.end());
   }
   draw_in(puffs);
   return puffs;
@@ -172,8 +189,7 @@ std::vector<Puff> pile_cumulonimbus(const CloudOptions& o)
     puffs.push_back({ place(at, up), { radius * 1.5, radius, thin } });
   }
   // What overshoots: a low dome over the tower.
-  add_buds(
-    puffs, { place(foot + downwind * 0.075, 0.87), { 0.1, 0.1, 0.07 * height } }, 1, random);
+  add_buds(puffs, { place(foot + downwind * 0.075, 0.87), { 0.1, 0.1, 0.07 * height } }, 1, random);
   draw_in(puffs);
   return puffs;
 }

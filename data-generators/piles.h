@@ -11,7 +11,10 @@ namespace brume
 
 /// Buds on a puff, on their sides and tops rather than below, and buds on these: `generations` of
 /// them. The puff itself is added, too.
-void add_buds(std::vector<Puff>& puffs, const Puff& parent, int generations, RandomSequence& random);
+void add_buds(std::vector<Puff>& puffs,
+  const Puff& parent,
+  int generations,
+  RandomSequence& random);
 
 /// Puffs in widths of the box.
 std::vector<Puff> pile_cumulus_field(const CloudOptions& options);
