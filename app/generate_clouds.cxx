@@ -4,6 +4,7 @@
 #include "option_checks.h"
 
 #include "vtkBrumeCloudSource.h"
+#include "vtkBrumeFogSource.h"
 
 #include "vtkNew.h"
 
@@ -69,6 +70,7 @@ Make declare_cumulus(CLI::App& command)
   return [o](const GeneratorRequest& request)
   {
     vtkNew<vtkBrumeCloudSource> source;
+    source->SetSparse(request.sparse);
     source->SetSize(request.size);
     source->SetSeed(request.seed);
     source->SetTime(request.time);
@@ -86,6 +88,36 @@ Make declare_cumulus(CLI::App& command)
   };
 }
 
+Make declare_fog(CLI::App& command)
+{
+  struct Options
+  {
+    std::string kind = "valley";
+  };
+  auto o = std::make_shared<Options>();
+  command
+    .add_option("--kind",
+      o->kind,
+      "homogeneous, height (thinner the higher, in swathes) or valley (in the hollows of hills) "
+      "[valley]")
+    ->check(one_of({ "homogeneous", "height", "valley" }))
+    ->type_name("KIND");
+  return [o](const GeneratorRequest& request)
+  {
+    vtkNew<vtkBrumeFogSource> source;
+    source->SetKind(o->kind == "homogeneous" ? vtkBrumeFogSource::KindHomogeneous
+        : o->kind == "height"                ? vtkBrumeFogSource::KindHeight
+                                             : vtkBrumeFogSource::KindValley);
+    source->SetSparse(request.sparse);
+    source->SetSize(request.size);
+    source->SetSeed(request.seed);
+    source->SetTime(request.time);
+    Input input = run_source(source, request);
+    input.length_unit = "m";
+    return input;
+  };
+}
+
 }
 
 std::vector<Generator> cloud_generators()
@@ -96,6 +128,11 @@ std::vector<Generator> cloud_generators()
       256,
       Moves::Yes,
       declare_cumulus },
+    { "fog",
+      "a bank of fog of 4 km, density from 0 to 1",
+      256,
+      Moves::Yes,
+      declare_fog },
   };
 }
 

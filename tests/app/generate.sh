@@ -4,7 +4,7 @@
 case_ "--list names the kinds, one a line"
 run generate --list
 expect_success
-for kind in cumulus head-ct smoke; do
+for kind in cumulus fog head-ct smoke; do
   expect_output "^$kind +[^ ].*"
 done
 expect_no_files
