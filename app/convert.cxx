@@ -37,8 +37,8 @@ struct Options
   bool quiet = false;
 };
 
-/// What is nothing in a dense volume, where the user does not say: 0, or, where values are negative,
-/// the least of them, as air is in a CT.
+/// What is nothing in a dense volume, where the user does not say: 0, or, where values are
+/// negative, the least of them, as air is in a CT.
 double background_of(vtkDataArray* array)
 {
   double range[2];
@@ -67,8 +67,9 @@ void make_dense(Input& volume, const Options& options, std::vector<std::string>&
     InterruptionWatch::check(options.input.c_str());
     throw Failure(error.what());
   }
-  notes.push_back("the sparse volume becomes dense: the box around what is stored, and its background "
-                  "within it");
+  notes.push_back(
+    "the sparse volume becomes dense: the box around what is stored, and its background "
+    "within it");
   volume.sparse = nullptr;
 }
 
@@ -78,7 +79,8 @@ void run(const Options& options)
   const bool sparse_out = holds_sparse(options.output.path);
   if (sparse_out && !options.type.empty() && options.type != "float")
   {
-    throw Failure("--type " + options.type, "a .vdb holds floats", "leave it out, or give --half", BadCall);
+    throw Failure(
+      "--type " + options.type, "a .vdb holds floats", "leave it out, or give --half", BadCall);
   }
   const InterruptionWatch watch;
   InputChoice choice = options.choice;
@@ -89,7 +91,9 @@ void run(const Options& options)
   if (volume.sparse && (output.background || output.tolerance > 0.0))
   {
     throw Failure(output.background ? "--background" : "--background-tolerance",
-      options.input + " is sparse and has a background of its own", "leave it out", BadCall);
+      options.input + " is sparse and has a background of its own",
+      "leave it out",
+      BadCall);
   }
   if (volume.sparse && !sparse_out)
   {
@@ -115,7 +119,7 @@ void run(const Options& options)
     char text[64];
     std::snprintf(text, sizeof(text), "%.9g", *output.background);
     notes.push_back(std::string("the background, which is not stored, is ") + text +
-      " (--background chooses another)");
+                    " (--background chooses another)");
   }
   ProgressBar bar("writing " + output.path, !options.quiet);
   const std::vector<std::string> losses =
@@ -136,27 +140,31 @@ void run(const Options& options)
 void add_convert(CLI::App& program)
 {
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("convert",
-    "Write a volume in another format, and tell what that format cannot hold");
+  CLI::App* command = program.add_subcommand(
+    "convert", "Write a volume in another format, and tell what that format cannot hold");
   options->choice.level_set = "distance";
   add_input(*command, options->input, options->choice);
   command
-    ->add_option("OUT", options->output.path,
+    ->add_option("OUT",
+      options->output.path,
       "The file to write; its ending chooses the format: " + volume_endings())
     ->required();
   command
-    ->add_option("--type", options->type,
+    ->add_option("--type",
+      options->type,
       "Write the values as " + listed(scalar_types()) +
         ": whole numbers are rounded and held to the type's range [as they are]")
     ->check(one_of(scalar_types()))
     ->type_name("TYPE");
   add_volume_output(*command, options->output);
   command->get_option("--background")
-    ->description("Of a .vdb from a dense volume: the value that is not stored [0, or the least value "
-                  "where some are negative]");
+    ->description(
+      "Of a .vdb from a dense volume: the value that is not stored [0, or the least value "
+      "where some are negative]");
   command->add_flag("--quiet", options->quiet, "No progress bar, no notes");
-  command->footer("Examples: brume convert scan.nii.gz scan.nrrd --type int16\n"
-                  "          brume convert cloud.vti cloud.vdb --half --background-tolerance 0.001");
+  command->footer(
+    "Examples: brume convert scan.nii.gz scan.nrrd --type int16\n"
+    "          brume convert cloud.vti cloud.vdb --half --background-tolerance 0.001");
   command->callback([options] { run(*options); });
 }
 

@@ -23,9 +23,14 @@ struct Type
   const char* name;
   int vtk;
 };
-constexpr Type Types[] = { { "uint8", VTK_UNSIGNED_CHAR }, { "int8", VTK_SIGNED_CHAR },
-  { "uint16", VTK_UNSIGNED_SHORT }, { "int16", VTK_SHORT }, { "uint32", VTK_UNSIGNED_INT },
-  { "int32", VTK_INT }, { "float", VTK_FLOAT }, { "double", VTK_DOUBLE } };
+constexpr Type Types[] = { { "uint8", VTK_UNSIGNED_CHAR },
+  { "int8", VTK_SIGNED_CHAR },
+  { "uint16", VTK_UNSIGNED_SHORT },
+  { "int16", VTK_SHORT },
+  { "uint32", VTK_UNSIGNED_INT },
+  { "int32", VTK_INT },
+  { "float", VTK_FLOAT },
+  { "double", VTK_DOUBLE } };
 
 /// What a conversion did to the values.
 struct Losses
@@ -61,7 +66,7 @@ void convert(const In* in, Out* out, vtkIdType count, Losses& losses)
     {
       out[i] = static_cast<Out>(in[i]);
       losses.rounded += static_cast<double>(out[i]) != static_cast<double>(in[i]) &&
-        !std::isnan(static_cast<double>(in[i]));
+                        !std::isnan(static_cast<double>(in[i]));
     }
   }
 }
@@ -118,7 +123,7 @@ std::vector<std::string> convert_scalars(vtkImageData* image, const std::string&
     if (count > 0)
     {
       messages.push_back(std::to_string(count) + " of " + std::to_string(out->GetNumberOfValues()) +
-        " values " + what);
+                         " values " + what);
     }
   };
   tell(losses.rounded, "are rounded to " + name);

@@ -76,7 +76,7 @@ void place(vtkImageData* image,
     const int next = (axis + 1) % 3;
     oblique = std::max(oblique,
       std::abs(direction[axis] * direction[next] + direction[3 + axis] * direction[3 + next] +
-        direction[6 + axis] * direction[6 + next]));
+               direction[6 + axis] * direction[6 + next]));
   }
   if (oblique > 1e-6)
   {
@@ -107,7 +107,8 @@ void place(vtkImageData* image,
     }
     char degrees[32];
     std::snprintf(degrees, sizeof(degrees), "%.3g", frame.shear_degrees);
-    messages.push_back("its axes are not perpendicular (by " + std::string(degrees) +
+    messages.push_back(
+      "its axes are not perpendicular (by " + std::string(degrees) +
       " degrees), which no dense volume can be: the closest perpendicular axes are taken");
   }
   image->SetSpacing(spacing);
@@ -168,7 +169,7 @@ vtkSmartPointer<vtkImageData> make_dense(vtkBrumeSparseVolume* volume,
       for (std::int32_t y = 8 * first[1]; y < 8 * last[1] + 8; ++y)
       {
         float* out = values + static_cast<std::size_t>(z - box.first[2]) * slice +
-          static_cast<std::size_t>(y - box.first[1]) * row;
+                     static_cast<std::size_t>(y - box.first[1]) * row;
         for (std::int32_t x = 8 * first[0]; x < 8 * last[0] + 8; ++x)
         {
           out[x - box.first[0]] = value(x, y, z);
@@ -178,7 +179,8 @@ vtkSmartPointer<vtkImageData> make_dense(vtkBrumeSparseVolume* volume,
   };
   for (const BrickBox& tile : voxels.tiles())
   {
-    const auto value = static_cast<float>(voxels.value_in_slot(static_cast<std::size_t>(tile.slot), 0));
+    const auto value =
+      static_cast<float>(voxels.value_in_slot(static_cast<std::size_t>(tile.slot), 0));
     put(tile.first, tile.last, [value](int, int, int) { return value; });
   }
   const std::vector<BrickPlace>& places = voxels.places();
@@ -186,15 +188,17 @@ vtkSmartPointer<vtkImageData> make_dense(vtkBrumeSparseVolume* volume,
   for (std::size_t i = 0; i < places.size(); ++i)
   {
     if (i % 4096 == 0 && progress &&
-      !progress(0.3 + 0.7 * static_cast<double>(i) / static_cast<double>(places.size())))
+        !progress(0.3 + 0.7 * static_cast<double>(i) / static_cast<double>(places.size())))
     {
       throw std::runtime_error("interrupted");
     }
     const std::size_t slot = first_slot + i;
     put(places[i],
       places[i],
-      [&voxels, slot](std::int32_t x, std::int32_t y, std::int32_t z)
-      { return static_cast<float>(voxels.value_in_slot(slot, (z & 7) << 6 | (y & 7) << 3 | (x & 7))); });
+      [&voxels, slot](std::int32_t x, std::int32_t y, std::int32_t z) {
+        return static_cast<float>(
+          voxels.value_in_slot(slot, (z & 7) << 6 | (y & 7) << 3 | (x & 7)));
+      });
   }
   auto image = vtkSmartPointer<vtkImageData>::New();
   image->SetDimensions(box.size[0], box.size[1], box.size[2]);

@@ -14,7 +14,10 @@ namespace HWY_NAMESPACE
 {
 
 /// Coordinates one axis after the other, `count` of each, a multiple of 16.
-void packet_values_target(const FieldView& view, const float* places, std::size_t count, float* result)
+void packet_values_target(const FieldView& view,
+  const float* places,
+  std::size_t count,
+  float* result)
 {
   const FieldFunctions field = field_functions(view);
   for (std::size_t i = 0; i < count; i += lane_count)

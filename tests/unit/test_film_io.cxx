@@ -31,6 +31,7 @@ Film film_of_all_values()
       film.radiance[c][i] = (v *= 1.7f);
       film.transmittance[c][i] = 1 / (1 + v);
       film.depth[i] = v + 3;
+      film.error[i] = v / 1000;
     }
   }
   film.radiance[0][1] = std::numeric_limits<float>::quiet_NaN();
@@ -62,6 +63,7 @@ TEST(FilmIo, ExrRoundTripIsBitExact)
     EXPECT_TRUE(same_bits(film.transmittance[c], back.transmittance[c]));
   }
   EXPECT_TRUE(same_bits(film.depth, back.depth));
+  EXPECT_TRUE(same_bits(film.error, back.error));
 }
 
 TEST(FilmIo, ExrHoldsTheChannelsOfTheContract)
@@ -73,10 +75,11 @@ TEST(FilmIo, ExrHoldsTheChannelsOfTheContract)
   const auto input = OIIO::ImageInput::open(path);
   ASSERT_TRUE(input);
   const OIIO::ImageSpec spec = input->spec();
-  EXPECT_EQ(spec.nchannels, 8);
+  EXPECT_EQ(spec.nchannels, 9);
   EXPECT_EQ(spec.format, OIIO::TypeDesc::FLOAT);
   for (const char* name :
-    { "R", "G", "B", "A", "transmittance.R", "transmittance.G", "transmittance.B", "Z" })
+    { "R", "G", "B", "A", "transmittance.R", "transmittance.G", "transmittance.B", "Z",
+      "error" })
   {
     EXPECT_GE(spec.channelindex(name), 0) << name;
   }
@@ -89,6 +92,7 @@ TEST(FilmIo, ExrHoldsTheChannelsOfTheContract)
   EXPECT_EQ(first("R"), film.radiance[0][3]);
   EXPECT_EQ(first("G"), film.radiance[1][3]);
   EXPECT_EQ(first("transmittance.B"), film.transmittance[2][3]);
+  EXPECT_EQ(first("error"), film.error[3]);
   EXPECT_EQ(first("Z"), film.depth[3]);
   EXPECT_FLOAT_EQ(first("A"), 1 - (film.transmittance[0][3] + film.transmittance[1][3] +
                                     film.transmittance[2][3]) / 3);

@@ -29,7 +29,8 @@ namespace
 
 const std::string folder = BRUME_TEST_OUTPUT "/openvdb-sampling";
 
-/// A ball with tiles of each level beside it, one of them inactive, and lone voxels on bricks' faces.
+/// A ball with tiles of each level beside it, one of them inactive, and lone voxels on bricks'
+/// faces.
 openvdb::FloatGrid::Ptr test_grid()
 {
   const auto grid = fog("density", { -5, 3, 9 }, 17.0);
@@ -66,8 +67,9 @@ std::vector<openvdb::Vec3d> places(std::mt19937& random)
     {
       for (int axis = 0; axis < 3; ++axis)
       {
-        p[axis] = random() % 2 ? 8.0 * std::round(p[axis] / 8.0) + (random() % 2 ? -1.0 : 0.0) + little(random)
-                               : p[axis];
+        p[axis] = random() % 2
+                    ? 8.0 * std::round(p[axis] / 8.0) + (random() % 2 ? -1.0 : 0.0) + little(random)
+                    : p[axis];
       }
     }
     if (n % 3 == 2)
@@ -138,7 +140,8 @@ Differences compare(vtkBrumeSparseVolume* volume, const openvdb::FloatGrid& grid
     {
       index[axis] = out[axis] - voxels.origin()[axis];
       // Beyond the box Brume's volume ends.
-      within = within && index[axis] >= voxels.first()[axis] && index[axis] <= voxels.dims()[axis] - 1;
+      within =
+        within && index[axis] >= voxels.first()[axis] && index[axis] <= voxels.dims()[axis] - 1;
     }
     const double value = sampler.wsSample(world);
     if (!within)
@@ -183,7 +186,10 @@ TEST_P(OpenVDBSampling, AgreesWithBoxSampler)
   EXPECT_GT(d.inside, 1500);
   RecordProperty("largest_difference_reference", std::to_string(d.reference));
   RecordProperty("largest_difference_packets", std::to_string(d.packets));
-  std::printf("%s: largest difference %.3g (reference), %.3g (kernels)\n", name.c_str(), d.reference, d.packets);
+  std::printf("%s: largest difference %.3g (reference), %.3g (kernels)\n",
+    name.c_str(),
+    d.reference,
+    d.packets);
 
   // What Brume writes, OpenVDB samples the same.
   vtkNew<vtkBrumeOpenVDBWriter> writer;

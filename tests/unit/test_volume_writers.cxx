@@ -73,7 +73,8 @@ vtkSmartPointer<vtkImageData> image_of(int type, const Frame& frame, int compone
   const vtkIdType count = values->GetNumberOfValues();
   for (vtkIdType i = 0; i < count; ++i)
   {
-    double v = low + (high - low) * static_cast<double>((i * 37) % count) / static_cast<double>(count);
+    double v =
+      low + (high - low) * static_cast<double>((i * 37) % count) / static_cast<double>(count);
     v = type == VTK_FLOAT || type == VTK_DOUBLE ? v + 1.0 / 3.0 : std::floor(v);
     values->SetComponent(i / components, static_cast<int>(i % components), v);
   }
@@ -104,7 +105,8 @@ void expect_same_voxels(vtkImageData* read, vtkImageData* written, double places
     }
     for (int k = 0; k < out->GetNumberOfComponents(); ++k)
     {
-      ASSERT_EQ(out->GetComponent(i, k), in->GetComponent(written->ComputePointId(ijk), k)) << "voxel " << i;
+      ASSERT_EQ(out->GetComponent(i, k), in->GetComponent(written->ComputePointId(ijk), k))
+        << "voxel " << i;
     }
   }
 }
@@ -155,8 +157,13 @@ struct Format
   bool compress;
   double places; ///< how well it holds places, in voxels
 };
-const Format Formats[] = { { ".vti", false, 1e-12 }, { ".vti", true, 1e-12 }, { ".nrrd", false, 1e-12 },
-  { ".nrrd", true, 1e-12 }, { ".mha", false, 1e-12 }, { ".mha", true, 1e-12 }, { ".nii", false, 2e-5 },
+const Format Formats[] = { { ".vti", false, 1e-12 },
+  { ".vti", true, 1e-12 },
+  { ".nrrd", false, 1e-12 },
+  { ".nrrd", true, 1e-12 },
+  { ".mha", false, 1e-12 },
+  { ".mha", true, 1e-12 },
+  { ".nii", false, 2e-5 },
   { ".nii.gz", false, 2e-5 } };
 
 TEST(ImageWriter, WhatIsWrittenComesBackInEachFormatTypeAndPlace)
@@ -165,8 +172,16 @@ TEST(ImageWriter, WhatIsWrittenComesBackInEachFormatTypeAndPlace)
   for (const Format& format : Formats)
   {
     int n = 0;
-    for (int type : { VTK_SIGNED_CHAR, VTK_UNSIGNED_CHAR, VTK_SHORT, VTK_UNSIGNED_SHORT, VTK_INT,
-           VTK_UNSIGNED_INT, VTK_LONG, VTK_UNSIGNED_LONG, VTK_FLOAT, VTK_DOUBLE })
+    for (int type : { VTK_SIGNED_CHAR,
+           VTK_UNSIGNED_CHAR,
+           VTK_SHORT,
+           VTK_UNSIGNED_SHORT,
+           VTK_INT,
+           VTK_UNSIGNED_INT,
+           VTK_LONG,
+           VTK_UNSIGNED_LONG,
+           VTK_FLOAT,
+           VTK_DOUBLE })
     {
       for (int components : { 1, 3 })
       {
@@ -174,8 +189,9 @@ TEST(ImageWriter, WhatIsWrittenComesBackInEachFormatTypeAndPlace)
         const Frame& frame = Frames[n % 5];
         const bool patient = n % 2;
         ++n;
-        SCOPED_TRACE(std::string(format.ending) + ", type " + std::to_string(type) + ", " + frame.name +
-          (patient ? ", a patient" : "") + (format.compress ? ", deflated" : ""));
+        SCOPED_TRACE(std::string(format.ending) + ", type " + std::to_string(type) + ", " +
+                     frame.name + (patient ? ", a patient" : "") +
+                     (format.compress ? ", deflated" : ""));
         const auto image = image_of(type, frame, components);
         const std::string path = where + "/" + std::to_string(n) + format.ending;
         vtkNew<vtkBrumeImageWriter> writer;
@@ -277,7 +293,8 @@ TEST(VolumeWriters, ErrorsAreToldAndLeaveNothing)
   {
     vtkNew<vtkBrumeImageWriter> writer;
     writer->SetInputData(image);
-    expect_error(writer.Get(), (where + "/none/a" + ending).c_str(), "none does not exist: make the folder");
+    expect_error(
+      writer.Get(), (where + "/none/a" + ending).c_str(), "none does not exist: make the folder");
     writer->SetInputData(empty);
     expect_error(writer.Get(), (where + "/a" + ending).c_str(), "there are no voxels");
   }
@@ -335,7 +352,8 @@ TEST(VolumeWriters, StopWhenAskedAndLeaveTheFormerFile)
 }
 
 /// The sparse volume of a file, by one grid's name.
-vtkSmartPointer<vtkBrumeSparseVolume> read_vdb(const std::string& path, const char* grid = nullptr,
+vtkSmartPointer<vtkBrumeSparseVolume> read_vdb(const std::string& path,
+  const char* grid = nullptr,
   int level_sets = vtkBrumeOpenVDBReader::LevelSetsAsDistances)
 {
   vtkNew<vtkBrumeOpenVDBReader> reader;
@@ -378,10 +396,9 @@ TEST(OpenVDBWriter, KeepsADenseVolumeInItsPlace)
         for (int j = extent[2] - 1; j <= extent[3] + 1; ++j)
           for (int i = extent[0] - 1; i <= extent[1] + 1; ++i)
           {
-            const bool within = i >= extent[0] && i <= extent[1] && j >= extent[2] && j <= extent[3] &&
-              k >= extent[4] && k <= extent[5];
-            const double expected =
-              within ? image->GetScalarComponentAsDouble(i, j, k, 0) : 5.0;
+            const bool within = i >= extent[0] && i <= extent[1] && j >= extent[2] &&
+                                j <= extent[3] && k >= extent[4] && k <= extent[5];
+            const double expected = within ? image->GetScalarComponentAsDouble(i, j, k, 0) : 5.0;
             ASSERT_EQ(volume->GetVoxels()->value(i - origin[0], j - origin[1], k - origin[2]),
               static_cast<float>(expected));
           }
@@ -424,7 +441,8 @@ TEST(OpenVDBWriter, LeavesOutTheBackgroundAndMakesTiles)
     expected += values[i] >= 1.0f;
   }
   EXPECT_EQ(volume->GetActiveVoxelCount(), expected);
-  EXPECT_EQ(volume->GetGridClass(), vtkBrumeSparseVolume::GridClassUnknown); // negative values were there
+  EXPECT_EQ(
+    volume->GetGridClass(), vtkBrumeSparseVolume::GridClassUnknown); // negative values were there
   EXPECT_EQ(volume->GetValueRange()[0], 0.0);
 }
 
@@ -493,7 +511,8 @@ TEST(OpenVDBWriter, CutsDistancesToABandAndNamesSeveralGrids)
     for (int j = 0; j < 40; ++j)
       for (int i = 0; i < 40; ++i)
       {
-        distance->InsertNextValue(static_cast<float>(0.5 * std::hypot(i - 19.5, j - 19.5, k - 19.5) - 7.0));
+        distance->InsertNextValue(
+          static_cast<float>(0.5 * std::hypot(i - 19.5, j - 19.5, k - 19.5) - 7.0));
         other->InsertNextValue(i);
       }
   image->GetPointData()->SetScalars(distance);
