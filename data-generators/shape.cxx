@@ -90,11 +90,30 @@ ShapeField::ShapeField(const Shape& shape, const Box& box, Quantity quantity, do
     width >= 0.0 && std::isfinite(width), "the width of a surface must not be below 0");
 }
 
-float ShapeField::value(const glm::dvec3& place, double) const
+float ShapeField::of_distance(double f) const
 {
-  const double f = m_shape.distance(place);
   return static_cast<float>(
     m_quantity == Quantity::distance ? f : smooth_ramp(-f, -0.5 * m_width, 0.5 * m_width));
+}
+
+float ShapeField::value(const glm::dvec3& place, double) const
+{
+  return this->of_distance(m_shape.distance(place));
+}
+
+FieldRange ShapeField::range_in(const Box& box, double) const
+{
+  const double f = m_shape.distance(0.5 * (box.lower + box.upper));
+  const double reach = 0.5 * glm::length(box.upper - box.lower) * m_shape.lipschitz();
+  // A little more than the bound, for what is rounded on the way.
+  const double margin = reach + 1e-6 * (reach + std::fabs(f));
+  if (!std::isfinite(margin))
+  {
+    return {};
+  }
+  const float a = this->of_distance(f - margin);
+  const float b = this->of_distance(f + margin);
+  return { std::min(a, b), std::max(a, b) };
 }
 
 }

@@ -170,7 +170,8 @@ Shape twisted(const Shape& part, double degrees);
 Shape displaced_by_waves(const Shape& part, double amplitude, double wavelength);
 
 /// f plus amplitude times Perlin noise with features of a size (above 0); the noise's slope is
-/// below 4 (noise.h).
+/// below 4 (noise.h). It comes in single precision: a sphere_trace with a tolerance
+/// finer than 1e-7 of the amplitude may miss the surface.
 Shape displaced_by_noise(const Shape& part, double amplitude, double size, std::uint32_t seed);
 
 /// All within a radius of the part (f - radius); a radius below 0 wears it away.
@@ -195,8 +196,12 @@ public:
 
   Box bounds() const override { return m_box; }
   float value(const glm::dvec3& place, double time) const override;
+  /// By the value in the middle and the Lipschitz constant.
+  FieldRange range_in(const Box& box, double time) const override;
 
 private:
+  float of_distance(double f) const;
+
   Shape m_shape;
   Box m_box;
   Quantity m_quantity;

@@ -345,7 +345,7 @@ private:
       }
       known.append(known.empty() ? "" : ", ").append(w.name);
     }
-    this->fail(at, "\"" + name.substr(0, 40) + "\" is no shape: there are " + known);
+    this->fail(at, std::string("\"").append(name, 0, 40).append("\" is no shape: there are ") + known);
   }
 
   const std::string& m_text;
