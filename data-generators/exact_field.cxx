@@ -100,6 +100,28 @@ double ExactField::optical_depth(const dvec3& origin,
   return from < to ? this->integral_inside(origin, along, from, to) : 0.0;
 }
 
+dvec3 ExactField::sample_place(const Box& box, int n)
+{
+  // (n, 19 n, 361 n) mod 64, in the middle of each 64th.
+  const dvec3 t(n + 0.5, 19 * n % sample_places + 0.5, 361 * n % sample_places + 0.5);
+  return box.lower + t / double(sample_places) * (box.upper - box.lower);
+}
+
+double ExactField::mean_in(const Box& box) const
+{
+  const FieldRange range = this->range_in(box, 0.0);
+  if (range.lower == range.upper)
+  {
+    return range.lower;
+  }
+  double sum = 0.0;
+  for (int n = 0; n < sample_places; ++n)
+  {
+    sum += this->density(sample_place(box, n));
+  }
+  return sum / sample_places;
+}
+
 ConstantField::ConstantField(const Box& box, double density)
   : ExactField(box)
   , m_density(density)
@@ -357,31 +379,28 @@ bool sample_means(const ExactField& field,
   {
     return sample(field, 0.0, grid, extent, values, progress);
   }
-  // (n, 19 n, 361 n) mod 64, from the middle of each 64th.
-  constexpr int places = 64;
   const Box whole = field.bounds();
   return for_each_row(
     extent,
     [&](int j, int k, std::size_t offset)
     {
-      for (int i = extent.first.x; i <= extent.last.x; ++i)
+      const auto cubes = [&](int first, int last)
       {
-        const dvec3 centre = grid.place(i, j, k);
-        const Box cube{ glm::max(centre - 0.5 * width * grid.spacing, whole.lower),
-          glm::min(centre + 0.5 * width * grid.spacing, whole.upper) };
-        const FieldRange range = field.range_in(cube, 0.0);
-        if (range.lower == range.upper)
+        const dvec3 half = 0.5 * width * grid.spacing;
+        return Box{ glm::max(grid.place(first, j, k) - half, whole.lower),
+          glm::min(grid.place(last, j, k) + half, whole.upper) };
+      };
+      // Eight at a time, where all of them are the same.
+      for (int i = extent.first.x; i <= extent.last.x;)
+      {
+        const int last = std::min(i + 7, extent.last.x);
+        const FieldRange range = field.range_in(cubes(i, last), 0.0);
+        for (; i <= last; ++i)
         {
-          values[offset++] = range.lower;
-          continue;
+          values[offset++] = range.lower == range.upper
+                               ? range.lower
+                               : static_cast<float>(field.mean_in(cubes(i, i)));
         }
-        double sum = 0.0;
-        for (int n = 0; n < places; ++n)
-        {
-          const dvec3 t(n + 0.5, 19 * n % places + 0.5, 361 * n % places + 0.5);
-          sum += field.density(cube.lower + t / double(places) * (cube.upper - cube.lower));
-        }
-        values[offset++] = static_cast<float>(sum / places);
       }
     },
     progress);

@@ -33,6 +33,11 @@ public:
     double from,
     double to) const;
 
+  /// The mean of the density over a box that lies within the field's: of 64 places, a rank-1
+  /// lattice that projects onto 64 different places along each axis; of one, where it is the same
+  /// all over.
+  virtual double mean_in(const Box& box) const;
+
   /// Whether the density jumps within the box, so that voxels can hold a part of each side.
   virtual bool has_edges() const = 0;
 
@@ -46,6 +51,10 @@ protected:
     const glm::dvec3& direction,
     double from,
     double to) const = 0;
+
+  /// Place n of the 64 of mean_in(), in a box.
+  static glm::dvec3 sample_place(const Box& box, int n);
+  static constexpr int sample_places = 64;
 
   Box m_box;
 };

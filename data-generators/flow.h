@@ -15,9 +15,9 @@ struct FlowOptions
   /// The steady wind, metres a second. Finite.
   glm::dvec3 wind{ 0.0 };
   /// Speed of the eddies, metres a second, root mean square over place and time. Not below 0.
-  double turbulence = 0.5;
+  double turbulence = 0.8;
   /// Size of the largest eddies, metres: half a wavelength. Above 0.
-  double eddy_size = 2.0;
+  double eddy_size = 1.0;
 };
 
 /// The velocity

@@ -88,6 +88,7 @@ ParticleCloud::ParticleCloud(const ParticleCloudOptions& options)
     require(finite(e.place) && finite(e.velocity) && std::isfinite(e.start) && !std::isnan(e.stop),
       "an emitter's place, velocity and times must be finite");
     require(e.radius >= 0.0 && std::isfinite(e.radius), "an emitter's radius must not be below 0");
+    require(e.spread >= 0.0 && std::isfinite(e.spread), "an emitter's spread must not be below 0");
     require(e.rate >= 0.0 && std::isfinite(e.rate), "an emitter's rate must not be below 0");
     alive += e.rate * options.life;
   }
@@ -114,6 +115,20 @@ std::vector<Particle> ParticleCloud::particles(double time) const
       const std::uint32_t own = mix_bits(
         mix_bits(static_cast<std::uint32_t>(n) ^ key) + static_cast<std::uint32_t>(n >> 32));
       const auto number = [&](std::uint32_t i) { return double(unit_float(mix_bits(own + i))); };
+      // A place of the unit ball: the first of eight tries that lies within it, else its middle.
+      const auto ball = [&](std::uint32_t stream)
+      {
+        for (std::uint32_t i = stream; i < stream + 24; i += 3)
+        {
+          const dvec3 p(
+            2.0 * number(i) - 1.0, 2.0 * number(i + 1) - 1.0, 2.0 * number(i + 2) - 1.0);
+          if (glm::dot(p, p) <= 1.0)
+          {
+            return p;
+          }
+        }
+        return dvec3(0.0);
+      };
       const double birth = emitter.start + (static_cast<double>(n) + number(0)) / emitter.rate;
       const double life = o.life * mix(0.6, 1.0, number(1));
       const double age = time - birth;
@@ -121,21 +136,8 @@ std::vector<Particle> ParticleCloud::particles(double time) const
       {
         return; // radius 0: none
       }
-      // In the ball: of the first of eight tries within it, else its middle.
-      dvec3 x(0.0);
-      for (std::uint32_t attempt = 0; attempt < 8; ++attempt)
-      {
-        const dvec3 p(2.0 * number(3 * attempt + 2) - 1.0,
-          2.0 * number(3 * attempt + 3) - 1.0,
-          2.0 * number(3 * attempt + 4) - 1.0);
-        if (glm::dot(p, p) <= 1.0)
-        {
-          x = p;
-          break;
-        }
-      }
-      x = emitter.place + emitter.radius * x;
-      dvec3 v = emitter.velocity;
+      dvec3 x = emitter.place + emitter.radius * ball(2);
+      dvec3 v = emitter.velocity + emitter.spread * ball(26);
       double t = 0.0;
       for (int step = 1; t < age; ++step)
       {

@@ -17,6 +17,7 @@ struct Emitter
   glm::dvec3 place{ 0.0 };              ///< its centre, metres
   double radius = 0.15;                 ///< metres, not below 0
   glm::dvec3 velocity{ 0.0, 0.0, 3.0 }; ///< of particles when they are born, metres a second
+  double spread = 1.0;                  ///< how far that varies, metres a second, not below 0
   double rate = 1500.0;                 ///< particles a second, not below 0
   double start = 0.0;                   ///< seconds
   double stop = 1e9;                    ///< seconds
@@ -26,7 +27,7 @@ struct Emitter
 struct ParticleCloudOptions
 {
   std::uint32_t seed = 1;
-  std::vector<Emitter> emitters{ Emitter() };
+  std::vector<Emitter> emitters = std::vector<Emitter>(1);
   FlowOptions flow;
   /// Speed at which particles rise against the air, metres a second: they are lighter. Finite.
   double rise = 0.4;
@@ -39,7 +40,7 @@ struct ParticleCloudOptions
   double radius = 0.12;
   double growth = 0.06;
   /// Density in the middle of a particle of its first radius; not below 0. It thins as it grows.
-  double density = 0.25;
+  double density = 0.1;
   /// Seconds of a step of the motion; above 0.
   double step = 0.04;
 };

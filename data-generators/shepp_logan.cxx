@@ -47,7 +47,8 @@ SheppLogan::SheppLogan(Contrast contrast)
       { row.radii[0], row.radii[1], row.radii[2] },
       turn.cosine,
       turn.sine,
-      contrast == Contrast::kak_slaney ? row.kak_slaney : row.raised });
+      contrast == Contrast::kak_slaney ? row.kak_slaney : row.raised,
+      std::min({ row.radii[0], row.radii[1], row.radii[2] }) });
   }
 }
 
@@ -93,27 +94,44 @@ double SheppLogan::integral_inside(const dvec3& origin,
   return std::max(sum, 0.0);
 }
 
+int SheppLogan::Ellipsoid::side(const Box& box) const
+{
+  const dvec3 p = this->within(0.5 * (box.lower + box.upper) - centre);
+  const double square = glm::dot(p, p);
+  const double reach = 0.5 * glm::length(box.upper - box.lower) / least_radius + 1e-9;
+  if (square > (1.0 + reach) * (1.0 + reach) * (1.0 + 1e-9))
+  {
+    return -1;
+  }
+  return reach < 1.0 && square < (1.0 - reach) * (1.0 - reach) ? 1 : 0;
+}
+
+double SheppLogan::mean_in(const Box& box) const
+{
+  double sum = 0.0;
+  for (const Ellipsoid& e : m_ellipsoids)
+  {
+    const int side = e.side(box);
+    int inside = side > 0 ? sample_places : 0;
+    for (int n = 0; side == 0 && n < sample_places; ++n)
+    {
+      const dvec3 p = e.within(sample_place(box, n) - e.centre);
+      inside += glm::dot(p, p) <= 1.0;
+    }
+    sum += e.value * inside / sample_places;
+  }
+  return std::max(sum, 0.0);
+}
+
 FieldRange SheppLogan::range_in(const Box& box, double) const
 {
-  const dvec3 centre = 0.5 * (box.lower + box.upper);
-  const double reach = 0.5 * glm::length(box.upper - box.lower);
   double low = 0.0;
   double high = 0.0;
   for (const Ellipsoid& e : m_ellipsoids)
   {
-    const double here = glm::length(e.within(centre - e.centre));
-    const double around =
-      reach / std::min({ e.radii.x, e.radii.y, e.radii.z }) + 1e-9 * (1.0 + here);
-    if (here + around < 1.0)
-    {
-      low += e.value;
-      high += e.value;
-    }
-    else if (here - around <= 1.0)
-    {
-      low += std::min(e.value, 0.0);
-      high += std::max(e.value, 0.0);
-    }
+    const int side = e.side(box);
+    low += side > 0 ? e.value : side < 0 ? 0.0 : std::min(e.value, 0.0);
+    high += side > 0 ? e.value : side < 0 ? 0.0 : std::max(e.value, 0.0);
   }
   return { static_cast<float>(std::max(low, 0.0)), static_cast<float>(std::max(high, 0.0)) };
 }

@@ -27,6 +27,8 @@ public:
   explicit SheppLogan(Contrast contrast = Contrast::raised);
 
   bool has_edges() const override { return true; }
+  /// Asks only those ellipsoids whose surface passes through the box.
+  double mean_in(const Box& box) const override;
   FieldRange range_in(const Box& box, double time) const override;
 
 protected:
@@ -42,9 +44,12 @@ private:
     glm::dvec3 centre, radii;
     double cosine, sine; ///< of the turn around z, counterclockwise
     double value;
+    double least_radius;
 
     /// A vector in the ellipsoid's axes, in its radii.
     glm::dvec3 within(const glm::dvec3& v) const;
+    /// 1: all of a box lies inside, -1: all outside, 0: perhaps some of both.
+    int side(const Box& box) const;
   };
   std::vector<Ellipsoid> m_ellipsoids;
 };

@@ -50,9 +50,10 @@ void read_binary(const ScanHeader& header, unsigned char* out, const Progress& p
   for (const DataPart& part : header.parts)
   {
     const bool inflate = header.encoding == Encoding::Deflated;
-    ByteStream stream(header.path, part.path, header.offset_is_inflated ? 0 : part.offset,
+    ByteStream stream(header.path, part.path,
+      header.offset_is_inflated ? 0 : part.offset + (inflate ? 0 : part.skip),
       inflate ? ByteStream::Inflate : ByteStream::Plain);
-    if (header.offset_is_inflated && !stream.skip(part.offset))
+    if (!stream.skip((header.offset_is_inflated ? part.offset : 0) + (inflate ? part.skip : 0)))
     {
       cut_short(header, part.path);
     }
@@ -132,6 +133,13 @@ void read_text(const ScanHeader& header, T* out, const Progress& progress)
   {
     ByteStream stream(header.path, part.path, part.offset, ByteStream::Plain);
     const auto words = std::make_unique<Words>(stream);
+    for (std::uint64_t i = part.skip / sizeof(T); i > 0; --i)
+    {
+      if (words->next().empty())
+      {
+        cut_short(header, part.path);
+      }
+    }
     for (std::uint64_t i = 0; i < each; ++i)
     {
       if (i % (1 << 20) == 0)

@@ -46,6 +46,7 @@ brume::ParticleCloudOptions vtkBrumeParticleSource::GetOptions() const
     emitter.place = { ring * turn.cosine, ring * turn.sine, 0.1 * this->Width };
     emitter.radius = this->EmitterRadius;
     emitter.velocity = { 0.0, 0.0, this->Speed };
+    emitter.spread = this->Spread;
     emitter.rate = this->Rate;
     options.emitters.push_back(emitter);
   }
@@ -136,6 +137,7 @@ void vtkBrumeParticleSource::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "EmitterRadius: " << this->EmitterRadius << " m\n";
   os << indent << "Rate: " << this->Rate << " /s\n";
   os << indent << "Speed: " << this->Speed << " m/s\n";
+  os << indent << "Spread: " << this->Spread << " m/s\n";
   os << indent << "Life: " << this->Life << " s\n";
   os << indent << "ParticleRadius: " << this->ParticleRadius << " m\n";
   os << indent << "Growth: " << this->Growth << " m/s\n";

@@ -113,6 +113,8 @@ public:
   vtkGetMacro(Rate, double);
   vtkSetMacro(Speed, double);
   vtkGetMacro(Speed, double);
+  vtkSetMacro(Spread, double);
+  vtkGetMacro(Spread, double);
   ///@}
 
   ///@{
@@ -127,7 +129,7 @@ public:
   /**
    * A particle's first radius, metres (default 0.12, above 0), how fast it grows, metres a second
    * (default 0.06, not below 0), and the density in its middle at first, without a unit (default
-   * 0.25, not below 0). It thins as it grows.
+   * 0.1, not below 0). It thins as it grows.
    */
   vtkSetMacro(ParticleRadius, double);
   vtkGetMacro(ParticleRadius, double);
@@ -153,8 +155,8 @@ public:
 
   ///@{
   /**
-   * Eddies: their speed, metres a second, root mean square (default 0.6, not below 0), and the size
-   * of the largest, metres (default 1.5, above 0).
+   * Eddies: their speed, metres a second, root mean square (default 0.8, not below 0), and the size
+   * of the largest, metres (default 1, above 0).
    */
   vtkSetMacro(Turbulence, double);
   vtkGetMacro(Turbulence, double);
@@ -180,15 +182,16 @@ protected:
   double EmitterRadius = 0.15;
   double Rate = 1500.0;
   double Speed = 3.0;
+  double Spread = 1.0;
   double Life = 5.0;
   double ParticleRadius = 0.12;
   double Growth = 0.06;
-  double Density = 0.25;
+  double Density = 0.1;
   double Wind[3] = { 0.5, 0.15, 0.0 };
   double Rise = 0.4;
   double Response = 0.5;
-  double Turbulence = 0.6;
-  double EddySize = 1.5;
+  double Turbulence = 0.8;
+  double EddySize = 1.0;
 
 private:
   vtkBrumeParticleSource(const vtkBrumeParticleSource&) = delete;
