@@ -103,6 +103,26 @@ void choose_time(vtkAlgorithm* reader, const std::string& path, const InputChoic
   }
 }
 
+/// Puts the series of a folder, which an error without a choice lists in one line, on lines of their own.
+void name_choices(vtkBrumeImageReader* reader, Failure& failure)
+{
+  const std::string message = failure.what();
+  const std::size_t list = message.find("choose one with --series N (");
+  const int count = reader->GetNumberOfSeries();
+  if (list == std::string::npos || count < 1)
+  {
+    return;
+  }
+  failure = Failure(message.substr(0, list) + "choose one with --series N or its UID", BadCall);
+  for (int i = 0; i < count; ++i)
+  {
+    failure.Choices.push_back("--series " + std::to_string(i + 1) + "  " +
+      reader->GetNameOfSeries(i) + "  (" + reader->GetUIDOfSeries(i) + ")");
+  }
+}
+
+void name_choices(vtkBrumeOpenVDBReader*, Failure&) {}
+
 /// Updates a reader to what `choice` says, and throws what it complains of as "FILE: what is wrong:
 /// what to do". Puts what it tells of times into `input`.
 template <class Reader>
@@ -132,7 +152,9 @@ void read(Reader* reader, const std::string& path, const InputChoice& choice,
   InterruptionWatch::check(path.c_str());
   if (*reader->GetErrorMessage())
   {
-    throw Failure(reader->GetErrorMessage());
+    Failure failure(reader->GetErrorMessage());
+    name_choices(reader, failure);
+    throw failure;
   }
 }
 

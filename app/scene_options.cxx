@@ -78,8 +78,8 @@ void add_input(CLI::App& command, std::string& input, InputChoice& choice)
   }
   command
     .add_option("INPUT", input,
-      "A file (.nii, .nii.gz, .mha, .mhd, .nrrd, .nhdr, .vti, .vtk, .vdb), numbered files of a series "
-      "(NAME%04d.EXT), or a volume made on the spot (" +
+      "A file (DICOM, .nii, .nii.gz, .mha, .mhd, .nrrd, .nhdr, .vti, .vtk, .vdb), numbered files of a series "
+      "(NAME%04d.EXT), a folder of DICOM, or a volume made on the spot (" +
         names + ")")
     ->required();
   command

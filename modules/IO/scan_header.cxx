@@ -96,6 +96,10 @@ void check_header(const ScanHeader& header)
     {
       most = available > (std::uint64_t(1) << 50) ? wanted : available * 1032;
     }
+    else if (header.encoding == Encoding::Dicom)
+    {
+      most = available > 0 ? wanted : 0; // as many as a decoder likes to make
+    }
     else if (header.encoding == Encoding::Text)
     {
       most = (available + 1) / 2 * scalar_size(header.scalar);
@@ -173,6 +177,12 @@ ScanHeader select_volume(const ScanHeader& header, std::size_t index)
     const std::size_t each = header.parts.size() / volumes;
     chosen.parts.assign(header.parts.begin() + static_cast<std::ptrdiff_t>(index * each),
       header.parts.begin() + static_cast<std::ptrdiff_t>((index + 1) * each));
+    if (header.part_rescale.size() == header.parts.size())
+    {
+      chosen.part_rescale.assign(
+        header.part_rescale.begin() + static_cast<std::ptrdiff_t>(index * each),
+        header.part_rescale.begin() + static_cast<std::ptrdiff_t>((index + 1) * each));
+    }
   }
   return chosen;
 }

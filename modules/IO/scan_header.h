@@ -32,7 +32,8 @@ enum class Encoding
 {
   Raw,      ///< binary, as they are
   Deflated, ///< binary in a gzip or zlib stream
-  Text      ///< decimal numbers between blanks
+  Text,     ///< decimal numbers between blanks
+  Dicom     ///< compressed pictures in DICOM files
 };
 
 class LineReader;
@@ -43,6 +44,8 @@ struct DataPart
   std::string path;
   std::uint64_t offset = 0; ///< bytes from the file's beginning (into the plain bytes if `inflated_offset`)
   std::uint64_t skip = 0; ///< bytes of stored numbers, once inflated, to pass over from there
+  std::uint64_t frame = 0;  ///< of the pictures in a file of Encoding::Dicom, which
+  std::uint64_t frames = 1; ///< and how many there are
 };
 
 struct ScanHeader
@@ -54,7 +57,9 @@ struct ScanHeader
   std::array<std::int64_t, 3> dimensions{ { 0, 0, 0 } }; ///< voxels, x fastest
   std::int64_t components = 1;                           ///< numbers a voxel
   bool planar = false; ///< components lie one volume after another, rather than voxel by voxel
+  bool part_planar = false; ///< the same within each part
   Scalar scalar = Scalar::UInt8;
+  int stored_bits = 0; ///< of signed numbers, the lowest that count; 0: all
   bool swap_bytes = false; ///< the file's byte order is not this machine's
   Encoding encoding = Encoding::Raw;
   /// The offset of the data counts inflated bytes (NIfTI: header and data share one gzip stream),
@@ -75,7 +80,7 @@ struct ScanHeader
 
   double slope = 1;         ///< value = slope · stored + intercept
   double intercept = 0;     ///< in units of the value
-  /// Slope and intercept of each part, where they are not the same for all; else empty.
+  /// Slope and intercept of each part (of all volumes), where they are not the same; else empty.
   std::vector<std::array<double, 2>> part_rescale;
   /// Rescaled values are whole and fit into 16 bits, so that they are kept as such; else they become
   /// floats, or doubles where the stored numbers are doubles or integers of 32 bits or more.

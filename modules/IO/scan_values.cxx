@@ -59,7 +59,7 @@ double memory_need(const ScanHeader& header)
 {
   const double stored = static_cast<double>(header.bytes());
   double need = stored;
-  if (header.planar && header.components > 1)
+  if ((header.planar || header.part_planar) && header.components > 1)
   {
     need = 2 * stored;
   }

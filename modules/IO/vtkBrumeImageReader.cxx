@@ -1,5 +1,6 @@
 #include "vtkBrumeImageReader.h"
 
+#include "dicom_series.h"
 #include "file_series.h"
 #include "memory_limit.h"
 #include "orientation.h"
@@ -65,6 +66,8 @@ struct vtkBrumeImageReader::Internals
   std::vector<io::NumberedFile> Files;
   std::size_t Taken = 0; // the volume that Header, Frame and Image are of
 
+  std::string Series; // the one that is wanted
+  std::vector<io::DicomChoice> Choices;
   std::uint64_t MaximumMemory = 0;
 
   void Clear() { *this = Internals(); }
@@ -114,7 +117,9 @@ struct vtkBrumeImageReader::Internals
     }
     if (format != io::Format::LegacyVtk)
     {
-      this->Header = format == io::Format::Nifti ? io::read_nifti_header(path)
+      this->Header = format == io::Format::Dicom
+        ? io::read_dicom_header(path, this->Series, this->Choices)
+        : format == io::Format::Nifti            ? io::read_nifti_header(path)
         : format == io::Format::MetaImage        ? io::read_meta_header(path)
                                                  : io::read_nrrd_header(path);
     }
@@ -285,6 +290,23 @@ const char* vtkBrumeImageReader::GetValueUnit() const
   return this->Internal->ValueUnit.c_str();
 }
 
+int vtkBrumeImageReader::GetNumberOfSeries() const
+{
+  return static_cast<int>(this->Internal->Choices.size());
+}
+
+const char* vtkBrumeImageReader::GetNameOfSeries(int index) const
+{
+  return index >= 0 && index < this->GetNumberOfSeries() ? this->Internal->Choices[index].text.c_str()
+                                                         : nullptr;
+}
+
+const char* vtkBrumeImageReader::GetUIDOfSeries(int index) const
+{
+  return index >= 0 && index < this->GetNumberOfSeries() ? this->Internal->Choices[index].uid.c_str()
+                                                         : nullptr;
+}
+
 const char* vtkBrumeImageReader::GetTimeUnit() const
 {
   return this->Internal->TimeUnit.c_str();
@@ -315,6 +337,7 @@ int vtkBrumeImageReader::RequestInformation(
   Internals& self = *this->Internal;
   self.Clear();
   self.MaximumMemory = static_cast<std::uint64_t>(this->MaximumMemory);
+  self.Series = this->Series ? this->Series : "";
   this->SetErrorCode(vtkErrorCode::NoError);
   this->SetAbortExecute(0);
   vtkInformation* info = outputVector->GetInformationObject(0);

@@ -2,7 +2,7 @@
  * @class vtkBrumeImageReader
  * @brief Reads a scan or any other volume on a regular grid, upright and to scale.
  *
- * Opens NIfTI-1, NIfTI-2 and Analyze 7.5 (.nii, .nii.gz, .hdr with .img), MetaImage (.mha, .mhd),
+ * Opens DICOM (files, and folders with any below them), NIfTI-1, NIfTI-2 and Analyze 7.5 (.nii, .nii.gz, .hdr with .img), MetaImage (.mha, .mhd),
  * NRRD (.nrrd, .nhdr), VTK XML image data (.vti) and legacy VTK structured points (.vtk). The
  * format is found in the file's content; its name counts only where the content says nothing.
  *
@@ -39,7 +39,7 @@ public:
   ///@{
   /**
    * The file to read: for a pair of header and data (.hdr/.img, .mhd, .nhdr) the header; of
-   * .hdr/.img either. A name that is no file and holds %d, %04d, #### or * in place of a number stands
+   * .hdr/.img either; of DICOM a file or a folder, with all that is below it. A name that is no file and holds %d, %04d, #### or * in place of a number stands
    * for a series over time, one file a volume, at the times that their numbers are. Default: none.
    */
   vtkSetFilePathMacro(FileName);
@@ -53,6 +53,17 @@ public:
    */
   vtkSetStringMacro(Series);
   vtkGetStringMacro(Series);
+  ///@}
+
+  ///@{
+  /**
+   * The series of a folder of DICOM, known after UpdateInformation() whether or not it succeeded:
+   * what people know them by ("CT, Head 5.0, 512 x 512 x 40"), and their UIDs. The index is one less
+   * than the number that SetSeries() takes. Null for an index that there is not.
+   */
+  int GetNumberOfSeries() const;
+  const char* GetNameOfSeries(int index) const;
+  const char* GetUIDOfSeries(int index) const;
   ///@}
 
   ///@{
