@@ -102,8 +102,9 @@ double ExactField::optical_depth(const dvec3& origin,
 
 dvec3 ExactField::sample_place(const Box& box, int n)
 {
-  // (n, 19 n, 361 n) mod 64, in the middle of each 64th.
-  const dvec3 t(n + 0.5, 19 * n % sample_places + 0.5, 361 * n % sample_places + 0.5);
+  // (n, 23 n, 57 n) mod 64, in the middle of each 64th: of all such lattices one of the best at
+  // half spaces, off by 0.016 of the jump, root mean square, and by 0.07 at most.
+  const dvec3 t(n + 0.5, 23 * n % sample_places + 0.5, 57 * n % sample_places + 0.5);
   return box.lower + t / double(sample_places) * (box.upper - box.lower);
 }
 
@@ -353,6 +354,24 @@ double CheckerField::integral_inside(const dvec3& origin,
     next[a] = reach(a);
   }
   return sum;
+}
+
+double CheckerField::mean_in(const Box& box) const
+{
+  double waves = 0.5 * (m_first - m_second);
+  for (int a = 0; a < 3; ++a)
+  {
+    // The integral of a wave that is 1 over the even cells and -1 over the odd ones, from 0.
+    const auto integral = [&](double place)
+    {
+      const double t = (place - m_box.lower[a]) / (m_box.upper[a] - m_box.lower[a]) * m_cells[a];
+      return 1.0 - std::fabs(t - 2.0 * std::floor(0.5 * t) - 1.0);
+    };
+    const double cells =
+      (box.upper[a] - box.lower[a]) / (m_box.upper[a] - m_box.lower[a]) * m_cells[a];
+    waves *= (integral(box.upper[a]) - integral(box.lower[a])) / cells;
+  }
+  return 0.5 * (m_first + m_second) + waves;
 }
 
 FieldRange CheckerField::range_in(const Box& box, double) const

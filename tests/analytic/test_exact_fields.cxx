@@ -263,9 +263,10 @@ TEST(ExactFields, MeansOverVoxelsKeepWhatIsThere)
       int parted = 0;
       for (int n = 0; n < 400; ++n)
       {
-        const glm::ivec3 v(random_number(n) * grid.dimensions.x,
-          random_number(n + 1000) * grid.dimensions.y,
-          random_number(n + 2000) * grid.dimensions.z);
+        // Not the outermost, which may stick out of the box and are cut there.
+        const glm::ivec3 v =
+          1 + glm::ivec3(dvec3(random_number(n), random_number(n + 1000), random_number(n + 2000)) *
+                         dvec3(grid.dimensions - 2));
         double mean = 0.0;
         for (int m = 0; m < 8000; ++m)
         {
@@ -278,7 +279,7 @@ TEST(ExactFields, MeansOverVoxelsKeepWhatIsThere)
                 v.x];
         parted +=
           ours > 0.01f && ours < 0.99f * 3.0f && ours != 1.0f && ours != 0.25f && ours != 1.5f;
-        EXPECT_NEAR(ours, mean, 0.06 * 3.0) << c.name;
+        EXPECT_NEAR(ours, mean, c.name == "checker" ? 0.06 : 0.25) << c.name;
       }
       EXPECT_GT(parted, 10) << c.name;
     }
