@@ -371,7 +371,8 @@ double CheckerField::mean_in(const Box& box) const
       (box.upper[a] - box.lower[a]) / (m_box.upper[a] - m_box.lower[a]) * m_cells[a];
     waves *= (integral(box.upper[a]) - integral(box.lower[a])) / cells;
   }
-  return 0.5 * (m_first + m_second) + waves;
+  return std::clamp(
+    0.5 * (m_first + m_second) + waves, std::min(m_first, m_second), std::max(m_first, m_second));
 }
 
 FieldRange CheckerField::range_in(const Box& box, double) const
@@ -409,12 +410,12 @@ bool sample_means(const ExactField& field,
         return Box{ glm::max(grid.place(first, j, k) - half, whole.lower),
           glm::min(grid.place(last, j, k) + half, whole.upper) };
       };
-      // Eight at a time, where all of them are the same.
+      // Eight at a time, where all of them are the same: always the same eight, whatever the block.
       for (int i = extent.first.x; i <= extent.last.x;)
       {
-        const int last = std::min(i + 7, extent.last.x);
-        const FieldRange range = field.range_in(cubes(i, last), 0.0);
-        for (; i <= last; ++i)
+        const int first = i - (i % 8 + 8) % 8;
+        const FieldRange range = field.range_in(cubes(first, first + 7), 0.0);
+        for (const int last = std::min(first + 7, extent.last.x); i <= last; ++i)
         {
           values[offset++] = range.lower == range.upper
                                ? range.lower
