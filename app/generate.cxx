@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <iostream>
 #include <memory>
 #include <set>
@@ -120,6 +121,9 @@ void add_kind(CLI::App& command, const Generator& generator)
 {
   auto options = std::make_shared<Options>();
   options->size = generator.default_size;
+  char moment[32];
+  std::snprintf(moment, sizeof(moment), "%g", generator.default_time);
+  options->time = moment;
   CLI::App* kind = command.add_subcommand(generator.name, generator.summary);
   kind->group("Kinds");
   kind
@@ -135,17 +139,21 @@ void add_kind(CLI::App& command, const Generator& generator)
     ->check(number("a whole number from 2 to 4096",
       [](double v) { return v >= 2 && v <= 4096 && v == std::floor(v); }))
     ->type_name("N");
-  kind->add_option("--seed", options->seed, "Which one of its kind, any whole number [1]")
-    ->check(number("a whole number of 32 bits",
-      [](double v) { return std::abs(v) <= 2147483647.0 && v == std::floor(v); }))
-    ->type_name("S");
+  if (generator.seeded)
+  {
+    kind->add_option("--seed", options->seed, "Which one of its kind, any whole number [1]")
+      ->check(number("a whole number of 32 bits",
+        [](double v) { return std::abs(v) <= 2147483647.0 && v == std::floor(v); }))
+      ->type_name("S");
+  }
   if (generator.moves == Moves::Yes)
   {
     kind
       ->add_option("--time",
         options->time,
-        "The moment, in seconds [0]; or a:b:n, n moments from a to b: a series, whose files are "
-        "numbered before their ending")
+        "The moment, in seconds [" + options->time +
+          "]; or a:b:n, n moments from a to b: a series, whose files are "
+          "numbered before their ending")
       ->check(time_check())
       ->type_name("T|a:b:n");
   }

@@ -25,7 +25,9 @@
 //     …
 //     { "stratus", "a layer of cloud, density from 0 to 1", 256, Moves::Yes, declare_stratus },
 //
-// Each kind is a subcommand of `brume generate` with the common options (--output, --size, --seed,
+// Where the options are settings of the source, GeneratorSettings (generator_settings.h) declares
+// and applies them. Each kind is a subcommand of `brume generate` with the common options
+// (--output, --size, --seed,
 // --time for what moves, --quiet, and those of the writers) beside its own, and `sample:KIND` is
 // the same volume with all options at their defaults. An option's description says its unit, its
 // range where that is not obvious, and its default in brackets; its values are checked when they
@@ -84,6 +86,8 @@ struct Generator
   /// Declares the kind's own options on its subcommand; what it returns reads them when it is
   /// called and keeps them alive (a shared_ptr in the lambda). `command` may be gone by then.
   Make (*declare)(CLI::App& command);
+  double default_time = 0.0; ///< seconds; of what moves
+  bool seeded = true;        ///< whether there is more than one of its kind, so that it has --seed
 };
 
 /// Every kind, in the order in which they are listed.

@@ -15,7 +15,7 @@ struct Alias
   const char* name;
   const char* kind;
 };
-constexpr Alias Aliases[] = { { "cloud", "cumulus" } };
+constexpr Alias Aliases[] = { { "cloud", "cumulus" }, { "fog", "valley-fog" } };
 
 Sample sample_of(const Generator& generator, const std::string& name)
 {
@@ -27,6 +27,7 @@ Sample sample_of(const Generator& generator, const std::string& name)
       const Make make = generator.declare(options);
       GeneratorRequest request;
       request.size = generator.default_size;
+      request.time = generator.default_time;
       request.progress = progress;
       return make(request);
     } };

@@ -4,7 +4,7 @@
 case_ "--list names the kinds, one a line"
 run generate --list
 expect_success
-for kind in cumulus fog head-ct smoke; do
+for kind in cumulus cirrus valley-fog head-ct torso-ct smoke particles shape checker; do
   expect_output "^$kind +[^ ].*"
 done
 expect_no_files
@@ -75,6 +75,21 @@ expect_only smoke.0000.nii.gz smoke.0001.nii.gz smoke.0002.nii.gz
 run generate smoke --size 12 --time 2 --output two.nii.gz --quiet
 expect_success
 cmp -s two.nii.gz smoke.0002.nii.gz || fail "expected the volume at time 2"
+
+case_ "clouds and particles go into a .vdb; a distance becomes a level set"
+run generate stratus --size 16 --output a.vdb --quiet
+expect_success
+run generate shape --distance --shape '(sphere 2)' --size 24 --output d.vdb --quiet
+expect_success
+run info d.vdb --level-set fog
+expect_output 'distance \(float, level set\)$'
+expect_output 'becomes a density'
+run generate shape --shape '(sphere' --output b.vdb
+expect_failure 1
+run generate particles --size 16 --output p.nrrd --quiet
+expect_success
+run info p.nrrd
+refuse_output '^value range +0 to 0'
 
 case_ "what a format cannot hold is told, once"
 run generate smoke --size 12 --time 0:1:2 --output smoke.nrrd
