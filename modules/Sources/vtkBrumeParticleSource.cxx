@@ -21,7 +21,6 @@ vtkStandardNewMacro(vtkBrumeParticleSource);
 vtkBrumeParticleSource::vtkBrumeParticleSource()
 {
   this->Size = 128;
-  this->Time = 5.0;
   this->EndTime = 10.0;
 }
 
@@ -43,6 +42,7 @@ brume::ParticleCloudOptions vtkBrumeParticleSource::GetOptions() const
     emitter.velocity = { 0.0, 0.0, this->Speed };
     emitter.spread = this->Spread;
     emitter.rate = this->Rate;
+    emitter.start = -this->WarmUp;
     options.emitters.push_back(emitter);
   }
   options.flow.seed = options.seed;
@@ -113,6 +113,7 @@ void vtkBrumeParticleSource::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Rate: " << this->Rate << " /s\n";
   os << indent << "Speed: " << this->Speed << " m/s\n";
   os << indent << "Spread: " << this->Spread << " m/s\n";
+  os << indent << "WarmUp: " << this->WarmUp << " s\n";
   os << indent << "Life: " << this->Life << " s\n";
   os << indent << "ParticleRadius: " << this->ParticleRadius << " m\n";
   os << indent << "Growth: " << this->Growth << " m/s\n";

@@ -5,7 +5,7 @@
  * Gives the density of fountains of mist at any moment: not below 0, without a unit, and above 1
  * where many particles meet. Multiply by an extinction (10 per metre for the default sizes) to get
  * the medium's extinction. Dense or sparse output, time steps, size and seed are the superclass's,
- * with other defaults: Size 128, Time 5, time steps from 0 to 10. Nothing is there before time 0.
+ * with other defaults: Size 128, time steps from 0 to 10.
  *
  * World units are metres and seconds: the volume fills a box of Width x Width x Width, x and y
  * around 0, z up from 0. Emitters stand at a tenth of the Width above the ground. What moves and
@@ -63,6 +63,15 @@ public:
   vtkGetMacro(Speed, double);
   vtkSetMacro(Spread, double);
   vtkGetMacro(Spread, double);
+  ///@}
+
+  ///@{
+  /**
+   * How long the emitters have been at work at time 0, seconds; nothing is there before. Default 5,
+   * any finite value.
+   */
+  vtkSetMacro(WarmUp, double);
+  vtkGetMacro(WarmUp, double);
   ///@}
 
   ///@{
@@ -125,6 +134,7 @@ protected:
   double Rate = 1500.0;
   double Speed = 3.0;
   double Spread = 1.0;
+  double WarmUp = 5.0;
   double Life = 5.0;
   double ParticleRadius = 0.12;
   double Growth = 0.06;

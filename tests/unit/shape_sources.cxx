@@ -432,7 +432,8 @@ TEST(ParticleSource, EverySettingMakesAnotherCloud)
   EXPECT_GT(usual, 1.0);
   void (*const changes[])(vtkBrumeParticleSource*) = {
     [](vtkBrumeParticleSource* s) { s->SetSeed(2); },
-    [](vtkBrumeParticleSource* s) { s->SetTime(4.0); },
+    [](vtkBrumeParticleSource* s) { s->SetTime(-1.0); },
+    [](vtkBrumeParticleSource* s) { s->SetWarmUp(3.0); },
     [](vtkBrumeParticleSource* s) { s->SetWidth(7.0); },
     [](vtkBrumeParticleSource* s) { s->SetNumberOfEmitters(2); },
     [](vtkBrumeParticleSource* s) { s->SetEmitterRadius(0.3); },
