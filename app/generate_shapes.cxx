@@ -318,12 +318,8 @@ Make declare_particles(CLI::App& command)
     [](Source* s, const double* v) { s->SetWind(v); });
   return [settings](const GeneratorRequest& request)
   {
-    if (request.size > 2048)
-    {
-      throw Failure(
-        "--size", "particles take at most 2048 voxels along a side", "give fewer", BadCall);
-    }
     vtkNew<Source> source;
+    source->SetSparse(request.sparse);
     source->SetSize(request.size);
     source->SetSeed(request.seed);
     source->SetTime(request.time);
