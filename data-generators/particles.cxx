@@ -5,7 +5,6 @@
 #include "data-generators/shaping.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <stdexcept>
@@ -174,175 +173,14 @@ std::vector<Particle> ParticleCloud::particles(double time) const
   return all;
 }
 
-namespace
+Particle widened(const Particle& particle, double least_radius)
 {
-
-constexpr int side = 8; ///< of a brick
-
-/// A particle as the grid sees it: in voxels, with the voxels it reaches.
-struct Deposit
-{
-  dvec3 centre;
-  double inverse_square; ///< of the radius
-  double peak;
-  glm::ivec3 first, last;
-};
-
-/// The voxels that a particle reaches in a block; false if there are none.
-bool reach_of(const Particle& particle, const Lattice& grid, const Extent& extent, Deposit& out)
-{
-  const double radius = particle.radius / grid.spacing.x;
-  if (!finite(particle.place) || !(radius > 0.0) || !std::isfinite(radius) ||
-      !std::isfinite(particle.peak))
+  if (!(particle.radius < least_radius))
   {
-    return false;
+    return particle;
   }
-  const double wide = std::max(radius, 1.5);
-  const double thinned = radius / wide;
-  out.centre = (particle.place - grid.origin) / grid.spacing;
-  out.inverse_square = 1.0 / (wide * wide);
-  out.peak = particle.peak * thinned * thinned * thinned;
-  for (int a = 0; a < 3; ++a)
-  {
-    // In double precision until they are within the block: no place is too far out.
-    const double low = std::max(std::ceil(out.centre[a] - wide), double(extent.first[a]));
-    const double high = std::min(std::floor(out.centre[a] + wide), double(extent.last[a]));
-    if (!(low <= high))
-    {
-      return false;
-    }
-    out.first[a] = static_cast<int>(low);
-    out.last[a] = static_cast<int>(high);
-  }
-  return true;
-}
-
-}
-
-bool deposit(const std::vector<Particle>& particles,
-  const Lattice& grid,
-  const Extent& extent,
-  float* values,
-  const Progress& progress)
-{
-  if (extent.last.x < extent.first.x || extent.last.y < extent.first.y ||
-      extent.last.z < extent.first.z)
-  {
-    return true;
-  }
-  if (grid.spacing.x != grid.spacing.y || grid.spacing.x != grid.spacing.z)
-  {
-    throw std::invalid_argument("particles: voxels must be cubes");
-  }
-  std::vector<Deposit> deposits;
-  deposits.reserve(particles.size());
-  for (const Particle& p : particles)
-  {
-    Deposit d;
-    if (reach_of(p, grid, extent, d))
-    {
-      deposits.push_back(d);
-    }
-  }
-
-  const glm::ivec3 size = extent.last - extent.first + 1;
-  const glm::ivec3 bricks = (size + side - 1) / side;
-  const std::size_t in_layer = static_cast<std::size_t>(bricks.x) * bricks.y;
-  // Layer by layer of bricks, which bounds what the lists take. `begin[b]` is where brick b's list
-  // starts in `list`; lists are in the order of the particles.
-  std::vector<std::vector<std::uint32_t>> layers(bricks.z);
-  for (std::size_t n = 0; n < deposits.size(); ++n)
-  {
-    const int from = (deposits[n].first.z - extent.first.z) / side;
-    const int to = (deposits[n].last.z - extent.first.z) / side;
-    for (int k = from; k <= to; ++k)
-    {
-      layers[k].push_back(static_cast<std::uint32_t>(n));
-    }
-  }
-  std::vector<std::size_t> begin(in_layer + 1);
-  std::vector<std::uint32_t> list;
-  for (int k = 0; k < bricks.z; ++k)
-  {
-    const auto each_brick = [&](std::uint32_t n, auto&& use)
-    {
-      const glm::ivec3 from = (deposits[n].first - extent.first) / side;
-      const glm::ivec3 to = (deposits[n].last - extent.first) / side;
-      for (int j = from.y; j <= to.y; ++j)
-        for (int i = from.x; i <= to.x; ++i)
-        {
-          use(static_cast<std::size_t>(j) * bricks.x + i);
-        }
-    };
-    std::fill(begin.begin(), begin.end(), 0);
-    for (const std::uint32_t n : layers[k])
-    {
-      each_brick(n, [&](std::size_t b) { ++begin[b + 1]; });
-    }
-    for (std::size_t b = 0; b < in_layer; ++b)
-    {
-      begin[b + 1] += begin[b];
-    }
-    list.resize(begin[in_layer]);
-    std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-    for (const std::uint32_t n : layers[k])
-    {
-      each_brick(n, [&](std::size_t b) { list[next[b]++] = n; });
-    }
-    layers[k] = {};
-
-    tbb::parallel_for(std::size_t(0),
-      in_layer,
-      [&](std::size_t b)
-      {
-        const glm::ivec3 first =
-          extent.first +
-          side * glm::ivec3(static_cast<int>(b) % bricks.x, static_cast<int>(b) / bricks.x, k);
-        const glm::ivec3 last = glm::min(first + side - 1, extent.last);
-        std::array<double, side * side * side> sums{};
-        for (std::size_t at = begin[b]; at < begin[b + 1]; ++at)
-        {
-          const Deposit& d = deposits[list[at]];
-          const glm::ivec3 low = glm::max(first, d.first);
-          const glm::ivec3 high = glm::min(last, d.last);
-          for (int z = low.z; z <= high.z; ++z)
-            for (int y = low.y; y <= high.y; ++y)
-            {
-              const double dy = y - d.centre.y;
-              const double dz = z - d.centre.z;
-              const double across = dy * dy + dz * dz;
-              double* row =
-                &sums[(static_cast<std::size_t>(z - first.z) * side + y - first.y) * side];
-              for (int x = low.x; x <= high.x; ++x)
-              {
-                const double dx = x - d.centre.x;
-                const double t = std::max(1.0 - (dx * dx + across) * d.inverse_square, 0.0);
-                row[x - first.x] += d.peak * t * t;
-              }
-            }
-        }
-        for (int z = first.z; z <= last.z; ++z)
-          for (int y = first.y; y <= last.y; ++y)
-          {
-            const double* row =
-              &sums[(static_cast<std::size_t>(z - first.z) * side + y - first.y) * side];
-            float* out =
-              values +
-              (static_cast<std::size_t>(z - extent.first.z) * size.y + (y - extent.first.y)) *
-                size.x +
-              (first.x - extent.first.x);
-            for (int x = first.x; x <= last.x; ++x)
-            {
-              *out++ = static_cast<float>(row[x - first.x]);
-            }
-          }
-      });
-    if (progress && !progress((k + 1.0) / bricks.z))
-    {
-      return false;
-    }
-  }
-  return true;
+  const double thinned = particle.radius / least_radius;
+  return { particle.place, least_radius, particle.peak * thinned * thinned * thinned };
 }
 
 }

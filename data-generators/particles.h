@@ -6,6 +6,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 namespace brume
@@ -87,18 +89,54 @@ private:
   Flow m_flow;
 };
 
-/// Fills a block of a grid with the sum of the particles' densities at the voxels' centres.
+/// The particle that voxels of a size can hold: one with a radius below `least_radius` gets that,
+/// thinned so as to hold what it held. With 1.5 voxels no particle slips between them.
+Particle widened(const Particle& particle, double least_radius);
+
+/// Fills a block of a grid with the sum of the particles' densities at the voxels' centres, each
+/// particle widened to 1.5 voxels at least.
 ///
 /// The voxels are taken by bricks of 8^3. Particles are sorted into bricks first, in their order,
 /// and each brick then gathers its own in double precision: no two threads write to one voxel, and
 /// each voxel adds in the order of the particles, so bytes depend on neither the threads nor the
-/// block. A particle with a radius below 1.5 voxels is deposited with that radius, thinned so as to
-/// hold what it held: it does not slip between voxels. Spacing must be the same along all axes.
-/// What is not finite counts as no particle. For the rest as sample().
+/// block. Spacing must be the same along all axes. What is not finite counts as no particle. For
+/// the rest as sample().
 bool deposit(const std::vector<Particle>& particles,
   const Lattice& grid,
   const Extent& extent,
   float* values,
   const Progress& progress = {});
+
+/// The same density as a field, for sparse sampling: at voxels' centres it has the very bits that
+/// deposit() gives with the same least radius. It keeps the particles of the moment that it was
+/// asked for last, sorted into cells; any number of threads may ask, best all of them for one
+/// moment.
+class ParticleField : public Field
+{
+public:
+  /// The cloud, the box that bounds() gives, and widened()'s least radius, metres, not below 0.
+  /// Throws std::invalid_argument where there is no such cloud or box.
+  ParticleField(const ParticleCloudOptions& options, const Box& box, double least_radius);
+  ~ParticleField() override;
+
+  Box bounds() const override { return m_box; }
+  float value(const glm::dvec3& place, double time) const override;
+  void values(const PlaceBlock& places, double time, float* out) const override;
+  /// 0 where no particle reaches.
+  FieldRange range_in(const Box& box, double time) const override;
+
+  /// The particles of a moment, widened, that reach into the box.
+  std::shared_ptr<const std::vector<Particle>> particles(double time) const;
+
+private:
+  struct Moment;
+  std::shared_ptr<const Moment> moment(double time) const;
+
+  ParticleCloud m_cloud;
+  Box m_box;
+  double m_least_radius;
+  mutable std::mutex m_mutex; ///< of the next
+  mutable std::shared_ptr<const Moment> m_moment;
+};
 
 }

@@ -18,16 +18,10 @@
 
 vtkStandardNewMacro(vtkBrumeParticleSource);
 
-struct vtkBrumeParticleSource::Moment
-{
-  double Time = 0.0;
-  vtkMTimeType SettingsTime = 0; // the source's time of change when they were made
-  std::vector<brume::Particle> Particles;
-};
-
 vtkBrumeParticleSource::vtkBrumeParticleSource()
 {
-  this->SetNumberOfInputPorts(0);
+  this->Size = 128;
+  this->EndTime = 10.0;
 }
 
 vtkBrumeParticleSource::~vtkBrumeParticleSource() = default;
@@ -48,6 +42,7 @@ brume::ParticleCloudOptions vtkBrumeParticleSource::GetOptions() const
     emitter.velocity = { 0.0, 0.0, this->Speed };
     emitter.spread = this->Spread;
     emitter.rate = this->Rate;
+    emitter.start = -this->WarmUp;
     options.emitters.push_back(emitter);
   }
   options.flow.seed = options.seed;
@@ -63,50 +58,36 @@ brume::ParticleCloudOptions vtkBrumeParticleSource::GetOptions() const
   return options;
 }
 
-namespace
+std::shared_ptr<const brume::Field> vtkBrumeParticleSource::MakeField()
 {
-
-brume::Lattice grid_of(double width, int size)
-{
-  return brume::grid_over(
-    { { -0.5 * width, -0.5 * width, 0.0 }, { 0.5 * width, 0.5 * width, width } }, size);
+  const double half = 0.5 * this->Width;
+  return std::make_shared<brume::ParticleField>(this->GetOptions(),
+    brume::Box{ { -half, -half, 0.0 }, { half, half, this->Width } },
+    1.5 * (this->Width / this->Size));
 }
 
-}
-
-int vtkBrumeParticleSource::RequestInformation(vtkInformation*,
-  vtkInformationVector**,
-  vtkInformationVector* outputs)
-{
-  vtkInformation* info = outputs->GetInformationObject(0);
-  brume::describe_grid(grid_of(this->Width, this->Size), VTK_FLOAT, info);
-  brume::describe_time(this->StartTime, this->EndTime, this->NumberOfTimeSteps, info);
-  return 1;
-}
-
-int vtkBrumeParticleSource::RequestData(vtkInformation*,
-  vtkInformationVector**,
+int vtkBrumeParticleSource::RequestData(vtkInformation* request,
+  vtkInformationVector** inputs,
   vtkInformationVector* outputs)
 {
   vtkInformation* info = outputs->GetInformationObject(0);
   vtkImageData* image = vtkImageData::GetData(info);
+  if (!image)
+  {
+    return this->Superclass::RequestData(request, inputs, outputs); // sparse
+  }
+  // The same voxels as by the field, gathered faster.
   try
   {
     const double time = brume::requested_time(info, this->Time);
-    if (!this->Kept || this->Kept->SettingsTime != this->GetMTime() || this->Kept->Time != time)
-    {
-      auto moment = std::make_unique<Moment>();
-      moment->Particles = brume::ParticleCloud(this->GetOptions()).particles(time);
-      moment->Time = time;
-      moment->SettingsTime = this->GetMTime();
-      this->Kept = std::move(moment);
-    }
+    const auto& field = static_cast<const brume::ParticleField&>(this->GetField());
+    const brume::Lattice grid = brume::grid_over(field.bounds(), this->Size);
     this->AllocateOutputData(image, info);
     image->GetPointData()->GetScalars()->SetName("density");
     image->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
     const brume::Extent block = brume::extent_of(image->GetExtent());
-    if (block.voxels() > 0 && !brume::deposit(this->Kept->Particles,
-                                grid_of(this->Width, this->Size),
+    if (block.voxels() > 0 && !brume::deposit(*field.particles(time),
+                                grid,
                                 block,
                                 static_cast<float*>(image->GetScalarPointer()),
                                 brume::progress_of(this)))
@@ -126,18 +107,13 @@ int vtkBrumeParticleSource::RequestData(vtkInformation*,
 void vtkBrumeParticleSource::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Size: " << this->Size << " voxels\n";
-  os << indent << "Seed: " << this->Seed << "\n";
-  os << indent << "Time: " << this->Time << " s\n";
-  os << indent << "StartTime: " << this->StartTime << " s\n";
-  os << indent << "EndTime: " << this->EndTime << " s\n";
-  os << indent << "NumberOfTimeSteps: " << this->NumberOfTimeSteps << "\n";
   os << indent << "Width: " << this->Width << " m\n";
   os << indent << "NumberOfEmitters: " << this->NumberOfEmitters << "\n";
   os << indent << "EmitterRadius: " << this->EmitterRadius << " m\n";
   os << indent << "Rate: " << this->Rate << " /s\n";
   os << indent << "Speed: " << this->Speed << " m/s\n";
   os << indent << "Spread: " << this->Spread << " m/s\n";
+  os << indent << "WarmUp: " << this->WarmUp << " s\n";
   os << indent << "Life: " << this->Life << " s\n";
   os << indent << "ParticleRadius: " << this->ParticleRadius << " m\n";
   os << indent << "Growth: " << this->Growth << " m/s\n";

@@ -2,86 +2,34 @@
  * @class   vtkBrumeParticleSource
  * @brief   a cloud of particles that moves: emitted, carried by a turbulent wind, faded
  *
- * Gives the density of a puffing fountain of mist as a vtkImageData of floats, at any moment. Point
- * scalars are named "density", without a unit, 0 where nothing is: multiply by an extinction (some
- * per metre for the default sizes) to get the medium's extinction.
+ * Gives the density of fountains of mist at any moment: not below 0, without a unit, and above 1
+ * where many particles meet. Multiply by an extinction (10 per metre for the default sizes) to get
+ * the medium's extinction. Dense or sparse output, time steps, size and seed are the superclass's,
+ * with other defaults: Size 128, time steps from 0 to 10.
  *
  * World units are metres and seconds: the volume fills a box of Width x Width x Width, x and y
- * around 0, z up from 0. Emitters stand on a ring at a tenth of the Width above the ground. What
- * moves and how: data-generators/particles.h and flow.h.
- *
- * Time: the source has TIME_STEPS (NumberOfTimeSteps of them, from StartTime to EndTime) and a
- * TIME_RANGE, and makes whatever moment the pipeline asks for (UPDATE_TIME_STEP), not only those;
- * if it asks for none, that of Time. A moment is the same to the bit whichever was asked for
- * before.
- *
- * The source makes the pieces that it is asked for; together they equal the whole, to the bit. The
- * same settings give the same bytes on every machine and with any number of threads. It reports
- * progress, and stops soon after AbortExecute is set: the output is then empty, and the next update
- * starts over. A setting that is not a number, or asks for more than 20 million particles at once,
- * is an error, and gives an empty output.
+ * around 0, z up from 0. Emitters stand at a tenth of the Width above the ground. What moves and
+ * how: data-generators/particles.h and flow.h. A moment is the same to the bit whichever was asked
+ * for before. More than 20 million particles at once are an error.
  *
  * @sa vtkBrumeSmokeSource
  */
 #ifndef vtkBrumeParticleSource_h
 #define vtkBrumeParticleSource_h
 
-#include "vtkBrumeSourcesModule.h" // for the export macro
-#include "vtkImageAlgorithm.h"
-
-#include <memory> // for the particles that are kept
+#include "vtkBrumeFieldSource.h"
 
 namespace brume
 {
 struct ParticleCloudOptions;
 }
 
-class VTKBRUMESOURCES_EXPORT vtkBrumeParticleSource : public vtkImageAlgorithm
+class VTKBRUMESOURCES_EXPORT vtkBrumeParticleSource : public vtkBrumeFieldSource
 {
 public:
   static vtkBrumeParticleSource* New();
-  vtkTypeMacro(vtkBrumeParticleSource, vtkImageAlgorithm);
+  vtkTypeMacro(vtkBrumeParticleSource, vtkBrumeFieldSource);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  ///@{
-  /**
-   * Voxels along each side of the volume. Voxels are cubes. Default 128, range 2 to 2048; outside
-   * it the nearest end.
-   */
-  vtkSetClampMacro(Size, int, 2, 2048);
-  vtkGetMacro(Size, int);
-  ///@}
-
-  ///@{
-  /**
-   * Which cloud. Default 1, any value.
-   */
-  vtkSetMacro(Seed, int);
-  vtkGetMacro(Seed, int);
-  ///@}
-
-  ///@{
-  /**
-   * The moment that is made where the pipeline asks for none, in seconds since the emitters began.
-   * Default 5, any finite value; nothing is there before 0.
-   */
-  vtkSetMacro(Time, double);
-  vtkGetMacro(Time, double);
-  ///@}
-
-  ///@{
-  /**
-   * The moments that the pipeline is told of: so many, evenly from StartTime to EndTime, in
-   * seconds. Default 101 from 0 to 10; the number from 1 to 1e6, outside it the nearest end. An
-   * EndTime that is not after StartTime leaves StartTime alone.
-   */
-  vtkSetMacro(StartTime, double);
-  vtkGetMacro(StartTime, double);
-  vtkSetMacro(EndTime, double);
-  vtkGetMacro(EndTime, double);
-  vtkSetClampMacro(NumberOfTimeSteps, int, 1, 1000000);
-  vtkGetMacro(NumberOfTimeSteps, int);
-  ///@}
 
   ///@{
   /**
@@ -115,6 +63,15 @@ public:
   vtkGetMacro(Speed, double);
   vtkSetMacro(Spread, double);
   vtkGetMacro(Spread, double);
+  ///@}
+
+  ///@{
+  /**
+   * How long the emitters have been at work at time 0, seconds; nothing is there before. Default 5,
+   * any finite value.
+   */
+  vtkSetMacro(WarmUp, double);
+  vtkGetMacro(WarmUp, double);
   ///@}
 
   ///@{
@@ -168,21 +125,16 @@ protected:
   vtkBrumeParticleSource();
   ~vtkBrumeParticleSource() override;
 
-  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  std::shared_ptr<const brume::Field> MakeField() override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
-  int Size = 128;
-  int Seed = 1;
-  double Time = 5.0;
-  double StartTime = 0.0;
-  double EndTime = 10.0;
-  int NumberOfTimeSteps = 101;
   double Width = 6.0;
   int NumberOfEmitters = 1;
   double EmitterRadius = 0.15;
   double Rate = 1500.0;
   double Speed = 3.0;
   double Spread = 1.0;
+  double WarmUp = 5.0;
   double Life = 5.0;
   double ParticleRadius = 0.12;
   double Growth = 0.06;
@@ -198,9 +150,6 @@ private:
   void operator=(const vtkBrumeParticleSource&) = delete;
 
   brume::ParticleCloudOptions GetOptions() const;
-
-  struct Moment;
-  std::unique_ptr<Moment> Kept; // the particles of the last moment, for its other pieces
 };
 
 #endif

@@ -180,18 +180,22 @@ TEST(ExactFields, SheppAndLogansTable)
     dvec3 place;
     double real, raised;
   } rows[] = {
-    { { 0.0, 0.0, 0.0 }, 1.02, 0.2 },         // brain
-    { { 0.675, 0.0, 0.0 }, 2.0, 1.0 },        // skull
-    { { 0.0, 0.9, 0.0 }, 2.0, 1.0 },          // skull, front
-    { { -0.22, 0.0, -0.25 }, 1.00, 0.0 },     // the large ventricle, on the side of x below 0
-    { { 0.22, 0.0, -0.25 }, 1.00, 0.0 },      // the small one
-    { { -0.30, 0.25, -0.25 }, 1.00, 0.0 },    // upper end of the large one: it leans outward
-    { { -0.127, -0.285, -0.25 }, 1.00, 0.0 }, // and its lower end inward
-    { { -0.313, -0.285, -0.25 }, 1.02, 0.2 }, // and not outward
-    { { 0.0, 0.45, -0.25 }, 1.04, 0.4 },      // the great one in front
-    { { 0.0, 0.08, -0.25 }, 1.04, 0.4 },      // the ball behind it
-    { { -0.08, -0.65, -0.25 }, 1.03, 0.3 },   // small ones
-    { { 0.06, -0.61, -0.25 }, 1.03, 0.3 },    // along y
+    { { 0.0, 0.0, 0.0 }, 1.02, 0.2 },          // brain
+    { { 0.675, 0.0, 0.0 }, 2.0, 1.0 },         // skull
+    { { 0.0, 0.9, 0.0 }, 2.0, 1.0 },           // skull, front
+    { { -0.22, 0.0, -0.25 }, 1.00, 0.0 },      // the large ventricle, on the side of x below 0
+    { { 0.22, 0.0, -0.25 }, 1.00, 0.0 },       // the small one
+    { { -0.30, 0.25, -0.25 }, 1.00, 0.0 },     // upper end of the large one: it leans outward
+    { { -0.127, -0.285, -0.25 }, 1.00, 0.0 },  // and its lower end inward
+    { { -0.313, -0.285, -0.25 }, 1.02, 0.2 },  // and not outward
+    { { -0.3436, 0.3804, -0.25 }, 1.00, 0.0 }, // just within its tip, 0.41 from its middle
+    { { -0.3498, 0.3994, -0.25 }, 1.02, 0.2 }, // … and just beyond
+    { { 0.3127, 0.2853, -0.25 }, 1.00, 0.0 },  // the same of the small one, 0.31
+    { { 0.3189, 0.3043, -0.25 }, 1.02, 0.2 },
+    { { 0.0, 0.45, -0.25 }, 1.04, 0.4 },    // the great one in front
+    { { 0.0, 0.08, -0.25 }, 1.04, 0.4 },    // the ball behind it
+    { { -0.08, -0.65, -0.25 }, 1.03, 0.3 }, // small ones
+    { { 0.06, -0.61, -0.25 }, 1.03, 0.3 },  // along y
     { { 0.06, -0.105, 0.625 }, 1.04, 0.4 },
     { { 0.0, 0.1, 0.625 }, 1.00, 0.0 },
     { { 0.0, 0.0, 0.95 }, 0.0, 0.0 }, // outside

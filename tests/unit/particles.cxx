@@ -4,6 +4,7 @@
 #include "data-generators/particles.h"
 #include "data-generators/portable_math.h"
 #include "data-generators/random.h"
+#include "data-generators/sparse_sampling.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -366,4 +367,53 @@ TEST(Deposit, ReportsProgressAndStops)
     out.data(),
     [&](double) { return ++calls < 3; }));
   EXPECT_EQ(calls, 3);
+}
+
+TEST(ParticleField, HasTheBitsOfTheDeposit)
+{
+  const brume::Box box{ { -2, -2, -1 }, { 2, 2, 3 } };
+  const brume::Lattice grid = brume::grid_over(box, 40);
+  const double least = 1.5 * grid.spacing.x;
+  const brume::ParticleField field(few(), box, least);
+  for (double time : { 5.0, 2.0 })
+  {
+    const std::vector<float> gathered = voxels(brume::ParticleCloud(few()).particles(time), grid);
+    EXPECT_GT(total(gathered), 1.0);
+    std::vector<float> sampled(gathered.size());
+    EXPECT_TRUE(brume::sample(field, time, grid, brume::whole_extent(grid), sampled.data()));
+    EXPECT_EQ(sampled, gathered);
+    for (int n = 0; n < 300; ++n)
+    {
+      const glm::ivec3 v(
+        random_number(n) * 40, random_number(n + 300) * 40, random_number(n + 600) * 40);
+      EXPECT_EQ(
+        field.value(grid.place(v.x, v.y, v.z), time), gathered[(v.z * 40 + v.y) * 40 + v.x]);
+    }
+  }
+  EXPECT_TRUE(brume::sample_sparse(field, -1.0, grid).voxels == nullptr) << "nothing was born yet";
+}
+
+TEST(ParticleField, ItsBoundsHoldAndLeaveTheEmptyOut)
+{
+  const brume::Box box{ dvec3(-3.0), dvec3(3.0) };
+  const brume::ParticleField field(few(), box, 0.1);
+  int empty = 0;
+  for (int n = 0; n < 800; ++n)
+  {
+    const dvec3 centre = random_place(2 * n, 3.2);
+    const dvec3 half = glm::abs(random_place(2 * n + 1, 0.3));
+    const brume::FieldRange range = field.range_in({ centre - half, centre + half }, 4.0);
+    empty += range.upper == 0.0f;
+    for (int m = 0; m < 20; ++m)
+    {
+      const float value = field.value(centre + half * random_place(30 * n + m, 1.0), 4.0);
+      ASSERT_GE(value, range.lower);
+      ASSERT_LE(value, range.upper);
+    }
+  }
+  EXPECT_GT(empty, 400);
+  EXPECT_LT(empty, 790);
+  EXPECT_EQ(field.value({ 0, 0, std::nan("") }, 4.0), 0.0f);
+  EXPECT_THROW(brume::ParticleField(few(), { dvec3(1.0), dvec3(0.0) }, 0.1), std::invalid_argument);
+  EXPECT_THROW(brume::ParticleField(few(), box, -1.0), std::invalid_argument);
 }

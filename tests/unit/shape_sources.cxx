@@ -5,7 +5,9 @@
 #include "vtkBrumeSignedDistance.h"
 #include "vtkBrumeSignedDistanceSource.h"
 #include "vtkBrumeSmokeSource.h"
+#include "vtkBrumeSparseVolume.h"
 
+#include "Transport/sparse_voxels.h"
 #include "tests/support/source_checks.h"
 
 #include "vtkContourFilter.h"
@@ -383,6 +385,32 @@ TEST(ParticleSource, PiecesEqualTheWhole)
   EXPECT_LT(range[1], 20.0);
 }
 
+TEST(ParticleSource, SparseHoldsTheSameVoxels)
+{
+  vtkNew<vtkBrumeParticleSource> source;
+  source->SetSize(48);
+  source->SetRate(300.0);
+  source->Update();
+  const auto dense = copy_of(source->GetOutput());
+  source->SparseOn();
+  source->Update();
+  vtkBrumeSparseVolume* sparse = source->GetSparseOutput();
+  ASSERT_TRUE(sparse && sparse->GetVoxels());
+  const auto& origin = sparse->GetVoxels()->origin();
+  vtkIdType active = 0;
+  for (int k = 0; k < 48; ++k)
+    for (int j = 0; j < 48; ++j)
+      for (int i = 0; i < 48; ++i)
+      {
+        const double value = dense->GetScalarComponentAsDouble(i, j, k, 0);
+        active += value != 0.0;
+        ASSERT_EQ(sparse->GetVoxels()->value(i - origin[0], j - origin[1], k - origin[2]), value);
+      }
+  EXPECT_EQ(sparse->GetActiveVoxelCount(), active);
+  EXPECT_GT(active, 500);
+  EXPECT_LT(active, 48 * 48 * 48 / 2);
+}
+
 TEST(ParticleSource, EverySettingMakesAnotherCloud)
 {
   const auto total = [](void (*change)(vtkBrumeParticleSource*))
@@ -404,7 +432,8 @@ TEST(ParticleSource, EverySettingMakesAnotherCloud)
   EXPECT_GT(usual, 1.0);
   void (*const changes[])(vtkBrumeParticleSource*) = {
     [](vtkBrumeParticleSource* s) { s->SetSeed(2); },
-    [](vtkBrumeParticleSource* s) { s->SetTime(4.0); },
+    [](vtkBrumeParticleSource* s) { s->SetTime(-1.0); },
+    [](vtkBrumeParticleSource* s) { s->SetWarmUp(3.0); },
     [](vtkBrumeParticleSource* s) { s->SetWidth(7.0); },
     [](vtkBrumeParticleSource* s) { s->SetNumberOfEmitters(2); },
     [](vtkBrumeParticleSource* s) { s->SetEmitterRadius(0.3); },
