@@ -77,8 +77,10 @@ expect_success
 cmp -s two.nii.gz smoke.0002.nii.gz || fail "expected the volume at time 2"
 
 case_ "clouds and particles go into a .vdb; a distance becomes a level set"
-run generate stratus --size 16 --output a.vdb --quiet
+run generate cumulus --size 32 --output a.vdb --quiet
 expect_success
+run info a.vdb
+expect_output '^active voxels +[1-9]'
 run generate shape --distance --shape '(sphere 2)' --size 24 --output d.vdb --quiet
 expect_success
 run info d.vdb --level-set fog
@@ -89,7 +91,7 @@ expect_failure 1
 run generate particles --size 16 --output p.nrrd --quiet
 expect_success
 run info p.nrrd
-refuse_output '^value range +0 to 0'
+refuse_output '^value range +0 to 0$'
 
 case_ "what a format cannot hold is told, once"
 run generate smoke --size 12 --time 0:1:2 --output smoke.nrrd

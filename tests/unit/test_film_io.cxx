@@ -85,8 +85,8 @@ TEST(FilmIo, ExrHoldsTheChannelsOfTheContract)
   }
   EXPECT_EQ(spec.get_string_attribute("Software").substr(0, 6), "Brume ");
   EXPECT_EQ(spec.get_string_attribute("brume:mapper"), "raymarch");
-  std::vector<float> pixels(6 * 8);
-  ASSERT_TRUE(input->read_image(0, 0, 0, 8, OIIO::TypeDesc::FLOAT, pixels.data()));
+  std::vector<float> pixels(6 * 9);
+  ASSERT_TRUE(input->read_image(0, 0, 0, 9, OIIO::TypeDesc::FLOAT, pixels.data()));
   // The file's first row is the picture's top one: pixel (0, 1) of the film.
   const auto first = [&](const char* name) { return pixels[spec.channelindex(name)]; };
   EXPECT_EQ(first("R"), film.radiance[0][3]);
