@@ -1,5 +1,6 @@
 // brume render: one picture of one volume.
 #include "command.h"
+#include "display_options.h"
 #include "interruption.h"
 #include "machine.h"
 #include "mapper_names.h"
@@ -49,14 +50,7 @@ struct Options
   std::string output;
   std::string mapper = "raymarch";
   std::string stats;
-  double exposure = 0.0; ///< stops
-  std::string display_curve = "none";
-
-  Display display() const
-  {
-    return { this->exposure,
-      this->display_curve == "srgb" ? Display::Curve::SRGB : Display::Curve::None };
-  }
+  DisplayOptions display;
 };
 
 bool ends_with_exr(const std::string& path)
@@ -67,7 +61,7 @@ bool ends_with_exr(const std::string& path)
 struct Drawn
 {
   Film film;
-  std::vector<float> behind; ///< the surfaces behind the volume, R, G, B a pixel; empty without
+  SurfacePicture surfaces; ///< behind the volume
   std::string statistics; ///< JSON
 };
 
@@ -75,8 +69,9 @@ Drawn draw_ray_march(const VolumeScene& scene)
 {
   vtkNew<vtkBrumeRayMarchMapper> mapper;
   set_up(scene, mapper);
-  const SurfacePicture surfaces = draw_meshes(scene);
-  mapper->SetSurfaceDepth(surfaces.depth);
+  Drawn drawn;
+  drawn.surfaces = draw_meshes(scene);
+  mapper->SetSurfaceDepth(drawn.surfaces.depth);
 
   struct Watch
   {
@@ -103,9 +98,7 @@ Drawn draw_ray_march(const VolumeScene& scene)
     });
   mapper->AddObserver(vtkCommand::ProgressEvent, observer);
   mapper->AddObserver(vtkCommand::ErrorEvent, observer);
-  Drawn drawn;
   drawn.film = Film(scene.width(), scene.height());
-  drawn.behind = surfaces.rgb;
   const bool completed =
     mapper->RenderFilm(scene.volume, scene.camera, scene.lights, drawn.film);
   watch.bar.clear();
@@ -116,19 +109,6 @@ Drawn draw_ray_march(const VolumeScene& scene)
   }
   drawn.statistics = mapper->GetStatistics();
   return drawn;
-}
-
-/// The film over what the surfaces sent, as over_background() of one colour.
-std::vector<float> over_picture(const Film& film, std::vector<float> rgb)
-{
-  for (std::size_t i = 0; i < film.size(); ++i)
-  {
-    for (int c = 0; c < 3; ++c)
-    {
-      rgb[3 * i + c] = film.radiance[c][i] + film.transmittance[c][i] * rgb[3 * i + c];
-    }
-  }
-  return rgb;
 }
 
 /// An effect as the statistics name it. How far VTK's mappers are off is not known beforehand.
@@ -199,9 +179,9 @@ void run(const Options& options)
   {
     throw Failure(error.what(), BadCall);
   }
-  if (ends_with_exr(options.output) && (options.exposure != 0.0 || options.display_curve != "none"))
+  if (ends_with_exr(options.output) && options.display.changes_light())
   {
-    throw Failure(options.exposure != 0.0 ? "--exposure" : "--display-curve",
+    throw Failure(options.display.exposure != 0.0 ? "--exposure" : "--display-curve",
       "an EXR holds linear light as it is", "leave it out, or write a .png", BadCall);
   }
   const MapperName& mapper = find_mapper(options.mapper, "--mapper");
@@ -228,8 +208,8 @@ void run(const Options& options)
   InterruptionWatch::check(options.scene.input.c_str());
 
   nlohmann::json statistics = nlohmann::json::parse(drawn.statistics);
-  statistics["exposure"] = options.exposure;
-  statistics["display_curve"] = options.display_curve;
+  statistics["exposure"] = options.display.exposure;
+  statistics["display_curve"] = options.display.curve;
   if (ends_with_exr(options.output))
   {
     write_exr(drawn.film, options.output,
@@ -238,10 +218,8 @@ void run(const Options& options)
   }
   else
   {
-    const std::vector<float> picture = drawn.behind.empty()
-      ? over_background(drawn.film, scene.options.background.data())
-      : over_picture(drawn.film, drawn.behind);
-    write_png(picture, drawn.film.width, drawn.film.height, options.output, options.display());
+    write_png(over_scene(drawn.film, scene, drawn.surfaces), drawn.film.width, drawn.film.height,
+      options.output, options.display.display());
   }
   if (!options.stats.empty())
   {
@@ -288,16 +266,7 @@ void add_render(CLI::App& program)
     ->add_option("--mapper", options->mapper,
       "What draws it: " + list_mapper_names() + " [raymarch]")
     ->type_name("M");
-  command
-    ->add_option("--exposure", options->exposure,
-      "Brightens a .png: its values are multiplied by 2^STOPS, -64 to 64 [0]")
-    ->check(number("a number of stops from -64 to 64", [](double v) { return std::abs(v) <= 64.0; }))
-    ->type_name("STOPS");
-  command
-    ->add_option("--display-curve", options->display_curve,
-      "How a .png shows linear light: none (as VTK's frames do) or srgb (as eyes see it) [none]")
-    ->check(one_of({ "none", "srgb" }))
-    ->type_name("CURVE");
+  add_display_options(*command, options->display);
   command->add_option("--stats", options->stats, "Write what it took, as JSON, to FILE")
     ->type_name("FILE");
   command->get_option("--sample-distance")

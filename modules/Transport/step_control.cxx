@@ -249,6 +249,7 @@ ShadowChoice choose_shadows(Marcher& marcher, const Scene& scene, double toleran
   choice.precise = true; // the sky's light
   if (exact)
   {
+    choice.step = 0.0;
     choice.estimated_error = rounding_of_rays;
     return choice;
   }
