@@ -18,6 +18,7 @@
 #include "film_io.h"
 #include "Transport/film.h"
 
+#include "vtkBrumeFog.h"
 #include "vtkBrumeRayMarchMapper.h"
 #include "vtkBrumeSparseVolume.h"
 
@@ -34,9 +35,11 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <thread>
 
 namespace brume::app
 {
@@ -117,6 +120,46 @@ nlohmann::json effect(const char* name, bool on, const char* reason)
   return { { "name", name }, { "on", on }, { "reason", reason }, { "error_bound", nullptr } };
 }
 
+/// Surfaces in fog, without a volume.
+Drawn draw_fog(const VolumeScene& scene)
+{
+  fit_clipping_range(scene);
+  Drawn drawn;
+  drawn.surfaces = draw_meshes(scene);
+  drawn.film = Film(scene.width(), scene.height());
+  scene.fog->SetNumberOfThreads(scene.options.threads);
+  std::string error;
+  vtkNew<vtkCallbackCommand> ear;
+  ear->SetClientData(&error);
+  ear->SetCallback([](vtkObject*, unsigned long, void* data, void* text)
+    { *static_cast<std::string*>(data) = static_cast<const char*>(text); });
+  scene.fog->AddObserver(vtkCommand::ErrorEvent, ear);
+  const auto start = std::chrono::steady_clock::now();
+  if (!scene.fog->RenderFilm(scene.camera, scene.lights, drawn.film, drawn.surfaces.depth))
+  {
+    throw Failure("--fog-extinction", "the fog cannot be drawn", words_of_vtk(error));
+  }
+  nlohmann::json statistics;
+  statistics["mapper"] = "fog";
+  statistics["seconds"] =
+    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  statistics["seconds_prepare"] = 0.0;
+  statistics["samples"] = 0; // the fog comes in closed form
+  statistics["rays"] = drawn.film.size();
+  statistics["threads"] = scene.options.threads > 0
+    ? scene.options.threads
+    : static_cast<int>(std::thread::hardware_concurrency());
+  statistics["simd"] = "none";
+  nlohmann::json fog = effect("fog", true, "the scene has fog; no volume was named");
+  fog["error_bound"] = 0.0;
+  statistics["effects"] = { fog };
+  statistics["non_finite_voxels"] = 0;
+  statistics["radiometric"] = true;
+  statistics["peak_memory_bytes"] = peak_memory_bytes();
+  drawn.statistics = statistics.dump(2);
+  return drawn;
+}
+
 Drawn draw_stock(const VolumeScene& scene, const MapperName& mapper)
 {
   if (scene.input.sparse)
@@ -195,6 +238,12 @@ void run(const Options& options)
   {
     refuse_beyond_stock_mappers(options.scene, "take --mapper raymarch, or leave it out");
   }
+  if (options.scene.input.empty() &&
+    (options.scene.meshes.empty() || !options.scene.medium.has_fog()))
+  {
+    throw Failure("INPUT", "it is missing",
+      "name a volume; only surfaces in fog (--mesh, --fog-extinction) need none", BadCall);
+  }
   if (!options.scene.preset.empty())
   {
     find_preset(options.scene.preset);
@@ -203,8 +252,9 @@ void run(const Options& options)
   check_output(options.stats, options.scene.input, { options.output });
   const InterruptionWatch watch;
   const VolumeScene scene = make_volume_scene(options.scene);
-  const Drawn drawn =
-    mapper.kind == MapperKind::RayMarch ? draw_ray_march(scene) : draw_stock(scene, mapper);
+  const Drawn drawn = !scene.volume        ? draw_fog(scene)
+    : mapper.kind == MapperKind::RayMarch ? draw_ray_march(scene)
+                                          : draw_stock(scene, mapper);
   InterruptionWatch::check(options.scene.input.c_str());
 
   nlohmann::json statistics = nlohmann::json::parse(drawn.statistics);
@@ -256,6 +306,7 @@ void add_render(CLI::App& program)
   CLI::App* command = program.add_subcommand(
     "render", "Draw one picture of a volume; needs no window and no display");
   add_scene_options(*command, options->scene, "preset");
+  command->get_option("INPUT")->required(false);
   command
     ->add_option("--output,-o", options->output,
       "The picture: .png as a screen shows it, or .exr with linear radiance, transmittance and "
