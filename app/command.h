@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace CLI
 {
@@ -39,6 +40,7 @@ public:
   {
   }
   ExitStatus Status;
+  std::vector<std::string> Choices; ///< printed below the message, one line each: what to choose from
 };
 
 // Each subcommand declares its options on the program and the callback that runs it; one file each.

@@ -37,7 +37,7 @@ using Json = nlohmann::ordered_json;
 struct Options
 {
   std::string input;
-  std::string grid;
+  InputChoice choice;
   std::string json;
   bool quiet = false;
 };
@@ -311,7 +311,7 @@ void run(const Options& options)
 {
   check_output(options.json, options.input);
   // Messages are part of what is told, so they are not written to standard error as well.
-  const Input input = open_input_with_bar(options.input, options.grid, options.quiet);
+  const Input input = open_input_with_bar(options.input, options.choice, options.quiet);
   const VolumeSummary summary =
     input.sparse ? summarize(input.sparse.Get()) : summarize(input.image.Get());
   const Json description =
@@ -332,7 +332,7 @@ void add_info(CLI::App& program)
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("info",
     "Tell what a volume is: size, spacing, orientation, values and their histogram");
-  add_input(*command, options->input, options->grid);
+  add_input(*command, options->input, options->choice);
   command->add_option("--json", options->json, "Write the same, as JSON, to FILE")
     ->type_name("FILE");
   command->add_flag("--quiet", options->quiet, "No progress bar");

@@ -11,9 +11,14 @@
 #include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
 #include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationDoubleVectorKey.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 namespace brume::app
@@ -67,9 +72,62 @@ vtkDataObject* Input::data() const
 namespace
 {
 
-/// Updates a reader, and throws what it complains of as "FILE: what is wrong: what to do".
+/// Takes what a reader knows of times after UpdateInformation(), and settles which is read.
+void choose_time(vtkAlgorithm* reader, const std::string& path, const InputChoice& choice, Input& input)
+{
+  vtkInformation* info = reader->GetOutputInformation(0);
+  if (info->Has(vtkStreamingDemandDrivenPipeline::TIME_STEPS()))
+  {
+    const double* times = info->Get(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
+    input.times.assign(times, times + info->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()));
+  }
+  const int count = static_cast<int>(input.times.size());
+  if (choice.time_step && *choice.time_step >= std::max(count, 1))
+  {
+    throw Failure("--time-step " + std::to_string(*choice.time_step),
+      count == 0 ? path + " holds one volume, not a series"
+                 : path + " holds " + std::to_string(count) + " volumes",
+      count == 0 ? "leave it out" : "take one from 0 to " + std::to_string(count - 1), BadCall);
+  }
+  if (choice.time && count == 0)
+  {
+    throw Failure("--time", path + " holds one volume, not a series", "leave it out", BadCall);
+  }
+  input.time_step = choice.time_step.value_or(0);
+  if (choice.time)
+  {
+    const auto away = [&](double t) { return std::abs(t - *choice.time); };
+    const auto nearest = std::min_element(input.times.begin(), input.times.end(),
+      [&](double a, double b) { return away(a) < away(b); });
+    input.time_step = static_cast<int>(nearest - input.times.begin());
+  }
+}
+
+/// Puts the series of a folder, which an error without a choice lists in one line, on lines of their own.
+void name_choices(vtkBrumeImageReader* reader, Failure& failure)
+{
+  const std::string message = failure.what();
+  const std::size_t list = message.find("choose one with --series N (");
+  const int count = reader->GetNumberOfSeries();
+  if (list == std::string::npos || count < 1)
+  {
+    return;
+  }
+  failure = Failure(message.substr(0, list) + "choose one with --series N or its UID", BadCall);
+  for (int i = 0; i < count; ++i)
+  {
+    failure.Choices.push_back("--series " + std::to_string(i + 1) + "  " +
+      reader->GetNameOfSeries(i) + "  (" + reader->GetUIDOfSeries(i) + ")");
+  }
+}
+
+void name_choices(vtkBrumeOpenVDBReader*, Failure&) {}
+
+/// Updates a reader to what `choice` says, and throws what it complains of as "FILE: what is wrong:
+/// what to do". Puts what it tells of times into `input`.
 template <class Reader>
-void read(Reader* reader, const std::string& path, const Progress& progress)
+void read(Reader* reader, const std::string& path, const InputChoice& choice,
+  const Progress& progress, Input& input)
 {
   vtkNew<vtkCallbackCommand> ear;
   ear->SetClientData(const_cast<Progress*>(&progress));
@@ -77,11 +135,26 @@ void read(Reader* reader, const std::string& path, const Progress& progress)
   reader->AddObserver(vtkCommand::ErrorEvent, ear);
   reader->AddObserver(vtkCommand::ProgressEvent, ear);
   reader->SetFileName(path.c_str());
-  reader->Update();
+  reader->SetMaximumMemory(choice.max_memory);
+  reader->UpdateInformation();
+  if (!*reader->GetErrorMessage())
+  {
+    choose_time(reader, path, choice, input);
+    if (input.times.empty())
+    {
+      reader->Update();
+    }
+    else
+    {
+      reader->UpdateTimeStep(input.times[input.time_step]);
+    }
+  }
   InterruptionWatch::check(path.c_str());
   if (*reader->GetErrorMessage())
   {
-    throw Failure(reader->GetErrorMessage());
+    Failure failure(reader->GetErrorMessage());
+    name_choices(reader, failure);
+    throw failure;
   }
 }
 
@@ -96,11 +169,13 @@ std::vector<std::string> messages_of(Reader* reader)
   return messages;
 }
 
-Input open_image(const std::string& path, const Progress& progress)
+Input open_image(const std::string& path, const InputChoice& choice, const Progress& progress)
 {
   vtkNew<vtkBrumeImageReader> reader;
-  read(reader.Get(), path, progress);
+  reader->SetSeries(choice.series.empty() ? nullptr : choice.series.c_str());
   Input input;
+  read(reader.Get(), path, choice, progress, input);
+  input.time_unit = reader->GetTimeUnit();
   input.image = reader->GetOutput();
   input.format = reader->GetFormat();
   input.length_unit = reader->GetLengthUnit();
@@ -110,12 +185,12 @@ Input open_image(const std::string& path, const Progress& progress)
   return input;
 }
 
-Input open_sparse(const std::string& path, const Progress& progress, const std::string& grid)
+Input open_sparse(const std::string& path, const InputChoice& choice, const Progress& progress)
 {
   vtkNew<vtkBrumeOpenVDBReader> reader;
-  reader->SetGridName(grid.empty() ? nullptr : grid.c_str());
-  read(reader.Get(), path, progress);
+  reader->SetGridName(choice.grid.empty() ? nullptr : choice.grid.c_str());
   Input input;
+  read(reader.Get(), path, choice, progress, input);
   input.sparse = reader->GetOutput();
   input.format = "OpenVDB";
   for (int i = 0; i < reader->GetNumberOfGrids(); ++i)
@@ -129,29 +204,40 @@ Input open_sparse(const std::string& path, const Progress& progress, const std::
 
 }
 
-Input open_input(const std::string& spec, const Progress& progress, const std::string& grid)
+Input open_input(const std::string& spec, const Progress& progress, const InputChoice& choice)
 {
   const std::string prefix = "sample:";
   const bool sample = spec.compare(0, prefix.size(), prefix) == 0;
   const bool sparse = !sample && vtkBrumeOpenVDBReader::CanReadFile(spec.c_str());
-  if (!grid.empty() && !sparse)
+  if (!choice.grid.empty() && !sparse)
   {
-    throw Failure("--grid " + grid, spec + " is not an OpenVDB file, which has grids to choose from",
+    throw Failure("--grid " + choice.grid, spec + " is not an OpenVDB file, which has grids to choose from",
+      "leave it out", BadCall);
+  }
+  if (!choice.series.empty() && (sample || !std::filesystem::is_directory(spec)))
+  {
+    throw Failure("--series " + choice.series,
+      spec + " is no folder, which may hold several series to choose from", "leave it out", BadCall);
+  }
+  if (sample && (choice.time || choice.time_step))
+  {
+    throw Failure(choice.time ? "--time" : "--time-step", spec + " is one volume, not a series",
       "leave it out", BadCall);
   }
   if (sample)
   {
     return make_sample(spec.substr(prefix.size()), progress);
   }
-  Input input = sparse ? open_sparse(spec, progress, grid) : open_image(spec, progress);
-  input.name = std::filesystem::path(spec).filename().string();
+  Input input = sparse ? open_sparse(spec, choice, progress) : open_image(spec, choice, progress);
+  const std::filesystem::path path(spec);
+  input.name = (path.has_filename() ? path : path.parent_path()).filename().string();
   return input;
 }
 
-Input open_input_with_bar(const std::string& spec, const std::string& grid, bool quiet)
+Input open_input_with_bar(const std::string& spec, const InputChoice& choice, bool quiet)
 {
   ProgressBar bar("reading", !quiet);
-  return open_input(spec, [&bar](double done) { bar.update(done); }, grid);
+  return open_input(spec, [&bar](double done) { bar.update(done); }, choice);
 }
 
 }

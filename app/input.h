@@ -3,7 +3,9 @@
 
 #include "vtkSmartPointer.h"
 
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,19 +28,32 @@ struct Input
   std::string value_unit;  ///< "HU", …; empty where unknown
   bool patient_axes = false; ///< the world is RAS+: x to the patient's right, y front, z up
   std::vector<std::string> messages; ///< what the reader settled by itself, one line each
+  std::vector<double> times;         ///< of a series over time, one for each volume; else empty
+  std::string time_unit;             ///< of these: "s", …; empty where unknown
+  int time_step = 0;                 ///< which of them this volume is, from 0 on
 
   vtkDataObject* data() const; ///< the image or the sparse volume
 };
 
-/// Opens INPUT as the user wrote it: `sample:NAME`, or a file, of which `grid` names a grid (empty:
-/// the first that can be read). `progress` is called now and then with the part that is done, in
-/// [0, 1]. Throws Failure: with status BadCall for a sample that does not exist and for a grid of a
-/// file that has none, Failed for a file that cannot be read.
+/// What of INPUT is taken, where it holds several things, and how much memory that may take.
+struct InputChoice
+{
+  std::string grid;             ///< of an OpenVDB file; empty: the first that can be read
+  std::string series;           ///< of a DICOM folder, by number or UID; empty: the only one
+  std::optional<int> time_step; ///< of a series over time, from 0 on; empty: the first
+  std::optional<double> time;   ///< the same by its time: the nearest
+  std::int64_t max_memory = 0;  ///< bytes; 0: three quarters of the machine's
+};
+
+/// Opens INPUT as the user wrote it: `sample:NAME`, or a file, or a folder of DICOM, of which `choice`
+/// names a part. `progress` is called now and then with the part that is done, in
+/// [0, 1]. Throws Failure: with status BadCall for a sample that does not exist and for a choice that
+/// the input does not have, Failed for a file that cannot be read.
 Input open_input(const std::string& spec, const std::function<void(double)>& progress = {},
-  const std::string& grid = {});
+  const InputChoice& choice = {});
 
 /// The same with a bar on the terminal for what takes over a second, unless `quiet`.
-Input open_input_with_bar(const std::string& spec, const std::string& grid, bool quiet);
+Input open_input_with_bar(const std::string& spec, const InputChoice& choice, bool quiet);
 
 /// A sample: what `sample:NAME` makes.
 struct Sample

@@ -17,11 +17,11 @@ namespace
 {
 
 /// One line on standard error: names of files may hold anything, line ends and escapes too.
-void tell(std::string message)
+void tell(std::string message, const char* before = "brume: ")
 {
   std::replace_if(
     message.begin(), message.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
-  std::cerr << "brume: " << message << '\n';
+  std::cerr << before << message << '\n';
 }
 
 }
@@ -66,6 +66,10 @@ int main(int argc, char** argv)
   catch (const Failure& failure)
   {
     tell(failure.what());
+    for (const std::string& choice : failure.Choices)
+    {
+      tell(choice, "  ");
+    }
     return failure.Status;
   }
   catch (const std::bad_alloc&)

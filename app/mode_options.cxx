@@ -211,7 +211,8 @@ void check(const ModeOptions& o)
 }
 
 vtkSmartPointer<vtkImageData> open_mask(
-  const ModeOptions& options, vtkImageData* input, const std::string& input_name, bool quiet)
+  const ModeOptions& options, vtkImageData* input, const std::string& input_name,
+  std::int64_t max_memory, bool quiet)
 {
   if (options.mask.empty())
   {
@@ -222,7 +223,9 @@ vtkSmartPointer<vtkImageData> open_mask(
     throw Failure("--mask", input_name + " is sparse, and masks are for dense volumes",
       "leave it out", BadCall);
   }
-  const Input file = open_input_with_bar(options.mask, {}, quiet);
+  InputChoice choice;
+  choice.max_memory = max_memory;
+  const Input file = open_input_with_bar(options.mask, choice, quiet);
   if (!file.image || !input)
   {
     throw Failure(options.mask, "sparse volumes are neither masks nor masked",

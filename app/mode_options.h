@@ -46,7 +46,8 @@ void check(const ModeOptions& options);
 /// The mask file on the input's voxels, 0 or 1, or null without one. Throws Failure for one that
 /// cannot be read or is of other dimensions than the input.
 vtkSmartPointer<vtkImageData> open_mask(
-  const ModeOptions& options, vtkImageData* input, const std::string& input_name, bool quiet);
+  const ModeOptions& options, vtkImageData* input, const std::string& input_name,
+  std::int64_t max_memory, bool quiet);
 
 /// Blend mode, ranges, cropping and clipping planes as the options have them; isovalues go to the
 /// property. The mask is the caller's.

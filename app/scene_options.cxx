@@ -8,6 +8,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <cmath>
 
 namespace brume::app
@@ -30,6 +33,30 @@ const CLI::Validator& positive()
   return check;
 }
 
+/// "8G" in bytes; 0 for what is no size from 1 byte to 8 EB.
+std::int64_t bytes_of(const std::string& text)
+{
+  double value = 0.0;
+  const std::from_chars_result result =
+    std::from_chars(text.data(), text.data() + text.size(), value);
+  std::string unit(static_cast<const char*>(result.ptr), text.data() + text.size());
+  std::transform(unit.begin(), unit.end(), unit.begin(),
+    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (!unit.empty() && unit.back() == 'b')
+  {
+    unit.pop_back();
+  }
+  const bool binary = unit.size() == 2 && unit[1] == 'i';
+  const std::string letters = "kmgt";
+  const std::size_t power = unit.empty() ? 0 : letters.find(unit[0]) + 1;
+  if (result.ec != std::errc() || (!unit.empty() && power == 0) || unit.size() > (binary ? 2u : 1u))
+  {
+    return 0;
+  }
+  value *= std::pow(binary ? 1024.0 : 1000.0, static_cast<double>(power));
+  return value >= 1.0 && value < 8e18 ? static_cast<std::int64_t>(value) : 0;
+}
+
 std::string preset_names()
 {
   std::string names;
@@ -42,7 +69,7 @@ std::string preset_names()
 
 }
 
-void add_input(CLI::App& command, std::string& input, std::string& grid)
+void add_input(CLI::App& command, std::string& input, InputChoice& choice)
 {
   std::string names;
   for (const Sample& sample : samples())
@@ -51,18 +78,51 @@ void add_input(CLI::App& command, std::string& input, std::string& grid)
   }
   command
     .add_option("INPUT", input,
-      "A file (.nii, .nii.gz, .mha, .mhd, .nrrd, .nhdr, .vti, .vtk, .vdb), or a volume made on the spot (" +
+      "A file (DICOM, .nii, .nii.gz, .mha, .mhd, .nrrd, .nhdr, .vti, .vtk, .vdb), numbered files of a series "
+      "(NAME%04d.EXT), a folder of DICOM, or a volume made on the spot (" +
         names + ")")
     ->required();
   command
-    .add_option("--grid", grid, "Which grid of an OpenVDB file [the first that can be read]")
+    .add_option("--grid", choice.grid, "Which grid of an OpenVDB file [the first that can be read]")
     ->type_name("NAME");
+  command
+    .add_option("--series", choice.series,
+      "Which series of a DICOM folder: its number in the list that the error without a choice gives, "
+      "or its UID [the only one]")
+    ->type_name("N|UID");
+  CLI::Option* step = command
+    .add_option("--time-step", choice.time_step,
+      "Which volume of a series over time, counted from 0 (info tells how many there are) [0]")
+    ->type_name("N")
+    ->check(number("a whole number of 0 or more",
+      [](double v) { return v >= 0 && v <= 1e9 && v == std::floor(v); }));
+  command
+    .add_option("--time", choice.time,
+      "The same by its time, in the series' unit; of numbered files (smoke_%04d.vdb) by their "
+      "numbers: the nearest [the first]")
+    ->type_name("T")
+    ->check(any())
+    ->excludes(step);
+  command
+    .add_option_function<std::string>("--max-memory",
+      [&choice](const std::string& text) { choice.max_memory = bytes_of(text); },
+      "The most memory that the volume may take: 8G, 500M or a number of bytes; K, M, G, T count "
+      "thousands, Ki, Mi, Gi, Ti 1024s [three quarters of the machine's]")
+    ->type_name("SIZE")
+    ->check(CLI::Validator(
+      [](std::string& text)
+      {
+        return bytes_of(text) > 0
+          ? std::string()
+          : "'" + text + "' is not a size in bytes, such as 8G, 500M or 2Gi";
+      },
+      "", ""));
 }
 
 void add_scene_options(CLI::App& command, SceneOptions& o, const std::string& shade)
 {
   o.shade = shade;
-  add_input(command, o.input, o.grid);
+  add_input(command, o.input, o.choice);
 
   const char* camera = "Camera";
   const char* look = "Look";

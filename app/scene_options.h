@@ -1,6 +1,7 @@
 // The scene options, which are the same for every subcommand that draws.
 #pragma once
 
+#include "input.h"
 #include "medium_options.h"
 #include "mode_options.h"
 
@@ -21,7 +22,7 @@ namespace brume::app
 struct SceneOptions
 {
   std::string input;
-  std::string grid; ///< of an OpenVDB file; empty: the first that can be read
+  InputChoice choice; ///< what of it is taken
   std::string density_array; ///< of the point data; empty: its scalars
   std::vector<std::string> meshes; ///< files
   std::array<int, 2> resolution{ 512, 512 }; ///< pixels
@@ -52,9 +53,9 @@ struct SceneOptions
   bool density() const { return this->extinction != Triple{ 0.0, 0.0, 0.0 }; }
 };
 
-/// Declares INPUT and --grid on a subcommand; they are read into `input` and `grid`, which must
-/// outlive the parse.
-void add_input(CLI::App& command, std::string& input, std::string& grid);
+/// Declares INPUT and the options that choose a part of it on a subcommand; they are read into `input`
+/// and `choice`, which must outlive the parse.
+void add_input(CLI::App& command, std::string& input, InputChoice& choice);
 
 /// Declares INPUT, the scene options and --scene, which reads them from a file, on a subcommand; they
 /// are read into `options`, which must outlive the parse. `shade` is the subcommand's default for

@@ -310,7 +310,7 @@ VolumeScene make_volume_scene(const SceneOptions& options)
     scene.camera = make_camera(scene);
     return scene;
   }
-  scene.input = open_input_with_bar(options.input, options.grid, options.quiet);
+  scene.input = open_input_with_bar(options.input, options.choice, options.quiet);
   choose_array(scene.input, options.density_array, options.input);
   if (!scene.preset && !density)
   {
@@ -332,7 +332,8 @@ VolumeScene make_volume_scene(const SceneOptions& options)
   }
 
   check_sample_distance(scene);
-  scene.mask = open_mask(options.modes, scene.input.image, options.input, options.quiet);
+  scene.mask = open_mask(options.modes, scene.input.image, options.input,
+    options.choice.max_memory, options.quiet);
   InterruptionWatch::check(options.input.c_str());
   vtkNew<vtkVolumeProperty> property;
   if (scene.preset)

@@ -13,6 +13,18 @@ find_package(VTK 9.1 REQUIRED COMPONENTS
   RenderingCore RenderingVolume RenderingOpenGL2 RenderingVolumeOpenGL2 RenderingFreeType
   InteractionStyle FiltersSources)
 
+find_package(DICOM 0.8 REQUIRED) # vtk-dicom; it gives VTK::DICOM
+# The decoders of compressed DICOM, which vtk-dicom links too. GDCM's own package file asks for its tools.
+find_path(BRUME_GDCM_INCLUDE_DIR gdcmImageReader.h PATH_SUFFIXES gdcm-3.0 REQUIRED)
+mark_as_advanced(BRUME_GDCM_INCLUDE_DIR)
+add_library(brume_gdcm INTERFACE IMPORTED)
+target_include_directories(brume_gdcm SYSTEM INTERFACE "${BRUME_GDCM_INCLUDE_DIR}")
+foreach (_name IN ITEMS MSFF DSED Common)
+  find_library(BRUME_GDCM_${_name} gdcm${_name} REQUIRED)
+  mark_as_advanced(BRUME_GDCM_${_name})
+  target_link_libraries(brume_gdcm INTERFACE "${BRUME_GDCM_${_name}}")
+endforeach ()
+
 # QUIET: Imath's Debian package names a Python library that it does not bring, and says so at length.
 find_package(OpenImageIO 2.4 REQUIRED QUIET)
 # Debian's OpenImageIO target names an include folder of OpenCV that its package does not bring.

@@ -10,6 +10,9 @@
 namespace brume
 {
 
+struct HeapCloud;
+class PuffHeap;
+
 /// The shape of a cumulus. Lengths are metres, time is in seconds.
 struct CumulusOptions
 {
@@ -20,6 +23,13 @@ struct CumulusOptions
   /// the base of the cloud at 0.08 width. Everything in the cloud grows with it, but for the
   /// lengths below. The cloud itself is some 0.75 width across. Above 0.
   double width = 2000.0;
+
+  /// Height of the cloud's base over the box's floor, and of its top, metres. 0 and below: 0.08
+  /// width, and 0.44 width above the base. The pile is stretched between the two (its noise is
+  /// not), and the box ends 0.08 width above the top. The base is at 0.03 width or above; the
+  /// highest tower ends near the top, within some tenths of the cloud's height.
+  double base = 0.0;
+  double top = 0.0;
 
   /// Size of the largest features of the noise, metres; the finest are 2^(octaves - 1) times
   /// smaller. Above 0.
@@ -69,14 +79,15 @@ public:
   Box bounds() const override;
   /// Time in seconds; a time that is not finite counts as 0.
   float value(const glm::dvec3& place, double time) const override;
+  void values(const PlaceBlock& places, double time, float* out) const override;
+  FieldRange range_in(const Box& box, double time) const override;
 
   const CumulusOptions& options() const { return m_options; }
 
 private:
-  class Heap; // the spheres, in cells
-
   CumulusOptions m_options;
-  std::unique_ptr<const Heap> m_heap;
+  std::unique_ptr<const PuffHeap> m_heap;
+  std::unique_ptr<const HeapCloud> m_cloud;
 };
 
 }

@@ -80,14 +80,15 @@ bool sample(const Field& field,
   float* values,
   const Progress& progress)
 {
+  const int width = extent.last.x - extent.first.x + 1;
   return for_each_row(
     extent,
-    [&](int j, int k, std::size_t offset)
+    [&, width](int j, int k, std::size_t offset)
     {
-      for (int i = extent.first.x; i <= extent.last.x; ++i)
-      {
-        values[offset++] = field.value(grid.place(i, j, k), time);
-      }
+      field.values(
+        { grid.origin, grid.spacing, { extent.first.x, j, k }, { width, 1, 1 } },
+        time,
+        values + offset);
     },
     progress);
 }

@@ -169,8 +169,9 @@ void take_from_end(ScanHeader& header)
 {
   check_header(header); // the size cannot wrap around below
   const std::uint64_t length = file_length(header.path, header.parts[0].path);
-  const std::uint64_t need = header.bytes();
-  header.parts[0].offset = length > need ? length - need : 0;
+  const std::uint64_t volumes = std::max<std::uint64_t>(header.times.size(), 1);
+  header.parts[0].offset =
+    length / volumes >= header.bytes() ? length - volumes * header.bytes() : 0;
 }
 
 }

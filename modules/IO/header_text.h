@@ -45,7 +45,7 @@ bool machine_is_big_endian();
 /// fail() for any other format and for more than 100 000 names.
 std::vector<std::string> expand_pattern(
   const std::string& path, const std::vector<std::string>& words);
-/// Sets the one data part's offset so that the volume is the file's last bytes.
+/// Sets the one data part's offset so that the volume, or the series, is the file's last bytes.
 void take_from_end(ScanHeader& header);
 
 }

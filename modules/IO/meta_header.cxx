@@ -187,8 +187,11 @@ ScanHeader read_meta_header(const std::string& path)
     }
     else if (n > 1)
     {
-      h.more_follows = true;
-      h.messages.push_back("a series of " + std::to_string(n) + " volumes; the first is taken");
+      const std::vector<double> steps =
+        numbers(path, keys, { "ElementSpacing", "ElementSize" }, rank, std::vector<double>(rank, 1.0));
+      const std::vector<double> starts = numbers(
+        path, keys, { "Offset", "Position", "Origin" }, rank, std::vector<double>(rank, 0.0));
+      set_series(h, n, starts[i], steps[i], "");
     }
   }
   h.scalar = scalar_of(path, value(keys, { "ElementType" }));

@@ -56,6 +56,7 @@ struct Nifti
   double slope = 0;
   double intercept = 0;
   int units = 0;
+  double time_offset = 0;
   int qform = 0;
   int sform = 0;
   double quaternion[3] = {};
@@ -121,6 +122,7 @@ Nifti parse(const std::string& path, const unsigned char* bytes, std::size_t len
     take<std::int64_t, double>(n, f, 16, 104);
     n.vox_offset = static_cast<double>(f.get<std::int64_t>(168));
     n.slope = f.get<double>(176);
+    n.time_offset = f.get<double>(216);
     n.intercept = f.get<double>(184);
     n.qform = f.get<std::int32_t>(344);
     n.sform = f.get<std::int32_t>(348);
@@ -144,6 +146,7 @@ Nifti parse(const std::string& path, const unsigned char* bytes, std::size_t len
     n.slope = f.get<float>(112);
     n.intercept = f.get<float>(116);
     n.units = bytes[123];
+    n.time_offset = f.get<float>(136);
     n.qform = f.get<std::int16_t>(252);
     n.sform = f.get<std::int16_t>(254);
     take_forms<float>(n, f, 256);
@@ -370,9 +373,11 @@ ScanHeader read_nifti_header(const std::string& path)
   }
   if (n.dim[4] > 1)
   {
-    h.more_follows = true;
-    h.messages.push_back(
-      "a series of " + std::to_string(n.dim[4]) + " volumes; the first is taken");
+    // Bits 3 to 5 of the units: seconds, milliseconds, microseconds; others are no times.
+    const int unit = n.units & 0x38;
+    const double seconds = unit == 16 ? 1e-3 : unit == 24 ? 1e-6 : 1;
+    set_series(h, n.dim[4], n.time_offset * seconds, n.pixdim[4] * seconds,
+      unit == 8 || unit == 16 || unit == 24 ? "s" : "");
   }
   if (n.dim[6] > 1 || n.dim[7] > 1)
   {

@@ -175,6 +175,36 @@ bool patient_space(const std::string& name, double sign[3])
   return false;
 }
 
+/// The times of a series along the last axis: "axis mins", "spacings" and "units" tell them.
+void set_times(ScanHeader& h, const Fields& fields, std::int64_t count, std::size_t rank)
+{
+  const auto last = [&](const char* name, double otherwise)
+  {
+    const std::vector<std::string> words = split_words(field(fields, name));
+    std::vector<double> number;
+    const bool told = words.size() == rank && parse_numbers(words.back(), number) &&
+      std::isfinite(number[0]);
+    return told ? number[0] : otherwise;
+  };
+  // Units are quoted and may hold blanks; one may follow for each axis.
+  std::vector<std::string> units;
+  std::string text = field(fields, "units");
+  for (std::size_t open; (open = text.find('"')) != std::string::npos;)
+  {
+    const std::size_t close = text.find('"', open + 1);
+    if (close == std::string::npos)
+    {
+      break;
+    }
+    units.push_back(text.substr(open + 1, close - open - 1));
+    text.erase(0, close + 1);
+  }
+  const std::string unit = units.size() == rank ? shortened(units.back()) : "";
+  const double seconds = unit == "ms" ? 1e-3 : unit == "us" ? 1e-6 : 1;
+  set_series(h, count, last("axis mins", 0) * seconds, last("spacings", 0) * seconds,
+    seconds == 1 ? unit : "s");
+}
+
 void orient(ScanHeader& h, const Fields& fields, const Axes& axes,
   const std::vector<std::string>& directions)
 {
@@ -353,9 +383,7 @@ ScanHeader read_nrrd_header(const std::string& path)
   h.components = axes.first_is_components ? sizes[0] : 1;
   if (axes.series > 1)
   {
-    h.more_follows = true;
-    h.messages.push_back(
-      "a series of " + std::to_string(axes.series) + " volumes; the first is taken");
+    set_times(h, fields, axes.series, rank);
   }
 
   // Numbers and where they lie.
@@ -412,7 +440,7 @@ ScanHeader read_nrrd_header(const std::string& path)
     h.value_unit = unit.front() == '"' && unit.size() > 1 ? unit.substr(1, unit.size() - 2) : unit;
   }
   orient(h, fields, axes, directions);
-  if (skips[1] == -1 && h.parts.size() == 1 && !h.more_follows)
+  if (skips[1] == -1 && h.parts.size() == 1)
   {
     take_from_end(h);
   }

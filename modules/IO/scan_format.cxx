@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 
 namespace brume::io
 {
@@ -13,7 +14,7 @@ namespace
 {
 
 const char* const Known =
-  "Brume reads NIfTI, MetaImage, NRRD, VTI and legacy VTK structured points";
+  "Brume reads DICOM, NIfTI, MetaImage, NRRD, VTI and legacy VTK structured points";
 
 bool begins(const std::string& text, const std::string& with)
 {
@@ -66,10 +67,6 @@ bool is_text(const std::string& bytes)
 [[noreturn]] void refuse(const std::string& path, const std::string& bytes, bool deflated)
 {
   const std::string name = lowered(path);
-  if (bytes.size() >= 132 && bytes.compare(128, 4, "DICM") == 0)
-  {
-    fail(path, "is one slice of DICOM", "name its folder, or convert the series to NIfTI (dcm2niix)");
-  }
   if (begins(bytes, std::string(" BDV\0", 5)))
   {
     fail(path, "is OpenVDB, which is not a dense volume", "read it with vtkBrumeOpenVDBReader");
@@ -106,6 +103,11 @@ bool is_text(const std::string& bytes)
 
 Format find_format(const std::string& path)
 {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error))
+  {
+    return Format::Dicom; // the only format of folders; its reader looks into the files
+  }
   if (file_length(path, path) == 0)
   {
     fail(path, "is empty", "copy or download it again");
@@ -136,6 +138,10 @@ Format find_format(const std::string& path)
   }
   if (!stream.deflated())
   {
+    if (bytes.size() >= 132 && bytes.compare(128, 4, "DICM") == 0)
+    {
+      return Format::Dicom;
+    }
     if (begins(bytes, "NRRD000"))
     {
       return Format::Nrrd;

@@ -12,7 +12,8 @@ enum class Format
   MetaImage,
   Nrrd,
   Vti,
-  LegacyVtk
+  LegacyVtk,
+  Dicom ///< a file, or a folder with any
 };
 
 /// Finds the format in the content; throws fail() when it is none of these, with a remedy that

@@ -3,6 +3,8 @@
 #include "file_access.h"
 #include "header_text.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <stdexcept>
@@ -84,23 +86,105 @@ void check_header(const ScanHeader& header)
     const std::uint64_t length = file_length(header.path, part.path);
     const std::uint64_t start = header.offset_is_inflated ? 0 : part.offset;
     const std::uint64_t available = length > start ? length - start : 0;
+    if (part.skip > (std::uint64_t(1) << 60))
+    {
+      fail(header.path, "the header promises more voxels than any machine holds", remedy);
+    }
+    const std::uint64_t wanted = promised / parts + part.skip;
     std::uint64_t most = available; // numbers' bytes that this many bytes of file can hold
     if (header.encoding == Encoding::Deflated)
     {
-      most = available > (std::uint64_t(1) << 50) ? promised : available * 1032;
+      most = available > (std::uint64_t(1) << 50) ? wanted : available * 1032;
+    }
+    else if (header.encoding == Encoding::Dicom)
+    {
+      most = available > 0 ? wanted : 0; // as many as a decoder likes to make
     }
     else if (header.encoding == Encoding::Text)
     {
       most = (available + 1) / 2 * scalar_size(header.scalar);
     }
-    if (most < promised / parts)
+    if (most < wanted)
     {
       fail(part.path == header.path ? header.path : header.path + ": " + part.path,
-        "the file is cut short: the header promises " + std::to_string(promised / parts) +
+        "the file is cut short: the header promises " + std::to_string(wanted) +
           " bytes of voxels (" + size + "), the file has room for " + std::to_string(most),
         "copy or download it again");
     }
   }
+}
+
+void set_series(
+  ScanHeader& header, std::int64_t count, double start, double step, const std::string& unit)
+{
+  constexpr std::int64_t Most = 1000000;
+  if (count > Most)
+  {
+    fail(header.path, "the header promises a series of " + std::to_string(count) + " volumes",
+      "Brume reads up to 1,000,000: check that the file is whole");
+  }
+  const bool told = std::isfinite(step) && step != 0 && std::isfinite(start);
+  header.times.clear();
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    header.times.push_back(told ? start + static_cast<double>(i) * step : static_cast<double>(i));
+  }
+  header.time_unit = told ? unit : "";
+  header.more_follows = header.more_follows || count > 1;
+}
+
+void check_series(ScanHeader& header)
+{
+  const std::size_t promised = header.times.size();
+  if (promised < 2 || header.parts.size() != 1 || header.encoding != Encoding::Raw)
+  {
+    return;
+  }
+  const std::uint64_t length = file_length(header.path, header.parts[0].path);
+  const std::uint64_t whole = (length - header.parts[0].offset) / header.bytes();
+  if (whole < promised)
+  {
+    header.times.resize(static_cast<std::size_t>(std::max<std::uint64_t>(whole, 1)));
+    header.messages.push_back("the file is cut short: of its " + std::to_string(promised) +
+      " volumes it holds " + std::to_string(header.times.size()));
+  }
+}
+
+ScanHeader select_volume(const ScanHeader& header, std::size_t index)
+{
+  ScanHeader chosen = header;
+  const std::size_t volumes = std::max<std::size_t>(header.times.size(), 1);
+  if (header.parts.size() == 1)
+  {
+    const double skip = static_cast<double>(index) * static_cast<double>(header.voxels()) *
+      static_cast<double>(header.components) * scalar_size(header.scalar);
+    if (skip > 1e18)
+    {
+      fail(header.path, "the header promises more voxels than any machine holds",
+        "check that the file is whole, or export the volume again");
+    }
+    chosen.parts[0].skip += index * header.bytes();
+  }
+  else if (volumes > 1)
+  {
+    if (header.parts.size() % volumes != 0)
+    {
+      fail(header.path,
+        "the header names " + std::to_string(header.parts.size()) + " data files for " +
+          std::to_string(volumes) + " volumes",
+        "list as many for each volume");
+    }
+    const std::size_t each = header.parts.size() / volumes;
+    chosen.parts.assign(header.parts.begin() + static_cast<std::ptrdiff_t>(index * each),
+      header.parts.begin() + static_cast<std::ptrdiff_t>((index + 1) * each));
+    if (header.part_rescale.size() == header.parts.size())
+    {
+      chosen.part_rescale.assign(
+        header.part_rescale.begin() + static_cast<std::ptrdiff_t>(index * each),
+        header.part_rescale.begin() + static_cast<std::ptrdiff_t>((index + 1) * each));
+    }
+  }
+  return chosen;
 }
 
 void convert_to_millimetres(ScanHeader& header, const std::string& unit)
@@ -156,10 +240,6 @@ void add_data_files(const std::string& path, LineReader& lines, const std::strin
   else
   {
     header.parts.push_back({ beside(path, data), skip });
-  }
-  if (header.more_follows && header.parts.size() > 1)
-  {
-    fail(path, "a series of volumes in several files", "name the header of one volume");
   }
 }
 

@@ -32,7 +32,8 @@ enum class Encoding
 {
   Raw,      ///< binary, as they are
   Deflated, ///< binary in a gzip or zlib stream
-  Text      ///< decimal numbers between blanks
+  Text,     ///< decimal numbers between blanks
+  Dicom     ///< compressed pictures in DICOM files
 };
 
 class LineReader;
@@ -42,6 +43,9 @@ struct DataPart
 {
   std::string path;
   std::uint64_t offset = 0; ///< bytes from the file's beginning (into the plain bytes if `inflated_offset`)
+  std::uint64_t skip = 0; ///< bytes of stored numbers, once inflated, to pass over from there
+  std::uint64_t frame = 0;  ///< of the pictures in a file of Encoding::Dicom, which
+  std::uint64_t frames = 1; ///< and how many there are
 };
 
 struct ScanHeader
@@ -53,7 +57,9 @@ struct ScanHeader
   std::array<std::int64_t, 3> dimensions{ { 0, 0, 0 } }; ///< voxels, x fastest
   std::int64_t components = 1;                           ///< numbers a voxel
   bool planar = false; ///< components lie one volume after another, rather than voxel by voxel
+  bool part_planar = false; ///< the same within each part
   Scalar scalar = Scalar::UInt8;
+  int stored_bits = 0; ///< of signed numbers, the lowest that count; 0: all
   bool swap_bytes = false; ///< the file's byte order is not this machine's
   Encoding encoding = Encoding::Raw;
   /// The offset of the data counts inflated bytes (NIfTI: header and data share one gzip stream),
@@ -62,6 +68,11 @@ struct ScanHeader
   std::vector<DataPart> parts; ///< one, or several of equal length that follow on each other
   bool more_follows = false;   ///< the stream holds more volumes, which are left unread
 
+  /// The times of a series' volumes, rising by what the format says; one or none: no series. All
+  /// else here is of the first volume until select_volume() chooses another.
+  std::vector<double> times;
+  std::string time_unit; ///< "s"; empty where the format does not say
+
   /// Voxel index to world, row-major 3 × 4: world = affine · (i, j, k, 1).
   std::array<double, 12> affine{ { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0 } };
   /// The world axes are the patient's: x to the right, y to the front, z up (RAS+).
@@ -69,6 +80,11 @@ struct ScanHeader
 
   double slope = 1;         ///< value = slope · stored + intercept
   double intercept = 0;     ///< in units of the value
+  /// Slope and intercept of each part (of all volumes), where they are not the same; else empty.
+  std::vector<std::array<double, 2>> part_rescale;
+  /// Rescaled values are whole and fit into 16 bits, so that they are kept as such; else they become
+  /// floats, or doubles where the stored numbers are doubles or integers of 32 bits or more.
+  bool values_are_int16 = false;
   std::string length_unit;  ///< "mm", "um", …; empty where the format does not say
   std::string value_unit;   ///< "HU"; empty where the format does not say
   std::vector<std::string> messages; ///< what the reader settled by itself, one line each
@@ -85,6 +101,20 @@ struct ScanHeader
 /// promises (deflate packs at most 1032 : 1, a number in text takes two bytes). Throws as fail()
 /// does; nothing of the volume's size has been allocated before it returns.
 void check_header(const ScanHeader& header);
+
+/// Makes a header one of a series of `count` volumes, at start, start + step, … A step that is 0 or
+/// not finite counts as 1 and a start that is not finite as 0, without a unit. Throws fail() for more
+/// than 1,000,000 volumes.
+void set_series(
+  ScanHeader& header, std::int64_t count, double start, double step, const std::string& unit);
+
+/// What set_series() cannot know: leaves out the volumes that the file is too short for, and says so.
+/// For a header that check_header() has passed.
+void check_series(ScanHeader& header);
+
+/// The header of one volume of a series: its data follow those of the volumes before it in the one
+/// file, or are the next of several files. To be checked again by check_header().
+ScanHeader select_volume(const ScanHeader& header, std::size_t index);
 
 /// Brings a length unit to millimetres in the affine of a header that carries patient axes, so that
 /// the world of a scan is always RAS+ in mm. `unit` may be um, mm, cm, m (and their long names);

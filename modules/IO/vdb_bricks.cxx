@@ -1,5 +1,7 @@
 #include "vdb_bricks.h"
 
+#include "memory_limit.h"
+
 #include "Transport/half.h"
 #include "Transport/sparse_voxels.h"
 
@@ -41,7 +43,11 @@ void transpose(const In* leaf, Out* brick, const Convert& convert)
 }
 
 template <class Tree>
-std::shared_ptr<const SparseVoxels> take(Tree& tree, bool half, const Progress& progress)
+std::shared_ptr<const SparseVoxels> take(Tree& tree,
+  bool half,
+  const std::string& path,
+  std::uint64_t limit,
+  const Progress& progress)
 {
   using Leaf = typename Tree::LeafNodeType;
   using Value = typename Tree::ValueType;
@@ -53,6 +59,9 @@ std::shared_ptr<const SparseVoxels> take(Tree& tree, bool half, const Progress& 
   // Leaves that neither are active anywhere nor differ from the background hold nothing.
   std::vector<Leaf*> leaves;
   tree.getNodes(leaves);
+  // Voxels, and 64 bytes of places and tables for a brick; the tree itself is there already.
+  const double brick = SparseVoxels::brick_voxels * (half ? 2.0 : 4.0) + 64;
+  check_memory(path, static_cast<double>(leaves.size()) * brick, limit);
   std::vector<std::uint8_t> empty(leaves.size(), 0);
   tbb::parallel_for(std::size_t(0),
     leaves.size(),
@@ -127,16 +136,20 @@ std::shared_ptr<const SparseVoxels> take(Tree& tree, bool half, const Progress& 
 
 std::shared_ptr<const SparseVoxels> take_voxels(openvdb::FloatTree& tree,
   bool half,
+  const std::string& path,
+  std::uint64_t limit,
   const Progress& progress)
 {
-  return take(tree, half, progress);
+  return take(tree, half, path, limit, progress);
 }
 
 std::shared_ptr<const SparseVoxels> take_voxels(openvdb::DoubleTree& tree,
   bool half,
+  const std::string& path,
+  std::uint64_t limit,
   const Progress& progress)
 {
-  return take(tree, half, progress);
+  return take(tree, half, path, limit, progress);
 }
 
 }

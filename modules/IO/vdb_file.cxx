@@ -188,7 +188,10 @@ std::vector<VdbGrid> list_vdb_grids(const std::string& path)
     });
 }
 
-VdbVolume read_vdb_grid(const std::string& path, const VdbGrid& which, const Progress& progress)
+VdbVolume read_vdb_grid(const std::string& path,
+  const VdbGrid& which,
+  std::uint64_t limit,
+  const Progress& progress)
 {
   return guarded(path,
     [&]
@@ -219,12 +222,12 @@ VdbVolume read_vdb_grid(const std::string& path, const VdbGrid& which, const Pro
         if (grid->isType<openvdb::FloatGrid>())
         {
           volume.voxels =
-            take_voxels(static_cast<openvdb::FloatGrid&>(*grid).tree(), half, progress);
+            take_voxels(static_cast<openvdb::FloatGrid&>(*grid).tree(), half, path, limit, progress);
         }
         else
         {
           volume.voxels =
-            take_voxels(static_cast<openvdb::DoubleGrid&>(*grid).tree(), half, progress);
+            take_voxels(static_cast<openvdb::DoubleGrid&>(*grid).tree(), half, path, limit, progress);
           volume.messages.push_back("its doubles are rounded to single precision");
         }
       }

@@ -47,7 +47,11 @@ bool looks_like_vdb(const std::string& path);
 std::vector<VdbGrid> list_vdb_grids(const std::string& path);
 
 /// Reads one grid of list_vdb_grids(). Its voxels go from the file to their bricks at once, on all
-/// processors, and are never held twice. Throws as above; std::bad_alloc where memory runs out.
-VdbVolume read_vdb_grid(const std::string& path, const VdbGrid& grid, const Progress& progress);
+/// processors, and are never held twice. Throws as above, also where they take more than `limit` bytes
+/// (memory_limit.h); std::bad_alloc where memory runs out.
+VdbVolume read_vdb_grid(const std::string& path,
+  const VdbGrid& grid,
+  std::uint64_t limit,
+  const Progress& progress);
 
 }

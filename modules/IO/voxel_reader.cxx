@@ -1,5 +1,6 @@
 #include "voxel_reader.h"
 
+#include "dicom_decode.h"
 #include "file_access.h"
 
 #include <algorithm>
@@ -50,9 +51,10 @@ void read_binary(const ScanHeader& header, unsigned char* out, const Progress& p
   for (const DataPart& part : header.parts)
   {
     const bool inflate = header.encoding == Encoding::Deflated;
-    ByteStream stream(header.path, part.path, header.offset_is_inflated ? 0 : part.offset,
+    ByteStream stream(header.path, part.path,
+      header.offset_is_inflated ? 0 : part.offset + (inflate ? 0 : part.skip),
       inflate ? ByteStream::Inflate : ByteStream::Plain);
-    if (header.offset_is_inflated && !stream.skip(part.offset))
+    if (!stream.skip((header.offset_is_inflated ? part.offset : 0) + (inflate ? part.skip : 0)))
     {
       cut_short(header, part.path);
     }
@@ -76,6 +78,74 @@ void read_binary(const ScanHeader& header, unsigned char* out, const Progress& p
       // The checksum stands behind the last byte: going there is what finds damaged voxels.
       stream.skip(64 << 20);
     }
+  }
+}
+
+/// Pictures that a decoder makes, a file at a time.
+void read_dicom(const ScanHeader& header, unsigned char* out, const Progress& progress)
+{
+  const std::uint64_t each = header.bytes() / header.parts.size();
+  std::vector<unsigned char> pictures;
+  std::string path;
+  std::uint64_t done = 0;
+  for (const DataPart& part : header.parts)
+  {
+    report(header, progress, static_cast<double>(done) / header.parts.size());
+    if (part.path != path)
+    {
+      pictures.clear();
+      pictures.shrink_to_fit();
+      path = part.path;
+      pictures = decode_dicom(
+        header.path, path, each * part.frames, scalar_size(header.scalar), part.frames);
+    }
+    std::memcpy(out + done * each, pictures.data() + part.frame * each, each);
+    ++done;
+  }
+}
+
+/// Components that lie plane after plane, put together number by number.
+void interleave(unsigned char* out, const unsigned char* planes, std::size_t voxels,
+  std::size_t components, std::size_t size)
+{
+  for (std::size_t c = 0; c < components; ++c)
+  {
+    for (std::size_t i = 0; i < voxels; ++i)
+    {
+      std::memcpy(out + (i * components + c) * size, planes + (c * voxels + i) * size, size);
+    }
+  }
+}
+
+/// Numbers of which only the lowest bits count take the sign from the highest of these.
+template <typename T>
+void extend_sign(T* numbers, std::size_t count, int bits)
+{
+  using Bits = std::make_unsigned_t<T>;
+  const int shift = static_cast<int>(8 * sizeof(T)) - bits;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    numbers[i] = static_cast<T>(static_cast<T>(static_cast<Bits>(numbers[i]) << shift) >> shift);
+  }
+}
+
+void extend_signs(const ScanHeader& header, void* out)
+{
+  const std::size_t count = header.voxels() * header.components;
+  if (header.stored_bits < 1 || header.stored_bits >= 8 * scalar_size(header.scalar))
+  {
+    return;
+  }
+  switch (header.scalar)
+  {
+    case Scalar::Int8:
+      return extend_sign(static_cast<std::int8_t*>(out), count, header.stored_bits);
+    case Scalar::Int16:
+      return extend_sign(static_cast<std::int16_t*>(out), count, header.stored_bits);
+    case Scalar::Int32:
+      return extend_sign(static_cast<std::int32_t*>(out), count, header.stored_bits);
+    default:
+      return;
   }
 }
 
@@ -132,6 +202,13 @@ void read_text(const ScanHeader& header, T* out, const Progress& progress)
   {
     ByteStream stream(header.path, part.path, part.offset, ByteStream::Plain);
     const auto words = std::make_unique<Words>(stream);
+    for (std::uint64_t i = part.skip / sizeof(T); i > 0; --i)
+    {
+      if (words->next().empty())
+      {
+        cut_short(header, part.path);
+      }
+    }
     for (std::uint64_t i = 0; i < each; ++i)
     {
       if (i % (1 << 20) == 0)
@@ -210,32 +287,35 @@ void read_voxels(const ScanHeader& header, void* out, const Progress& progress)
 {
   unsigned char* bytes = static_cast<unsigned char*>(out);
   std::vector<unsigned char> planes;
-  const bool interleave = header.planar && header.components > 1;
-  if (interleave)
+  const bool planar = (header.planar || header.part_planar) && header.components > 1;
+  if (planar)
   {
     planes.resize(header.bytes());
   }
+  unsigned char* const stored = planar ? planes.data() : bytes;
   if (header.encoding == Encoding::Text)
   {
-    read_numbers_of_text(header, interleave ? planes.data() : out, progress);
+    read_numbers_of_text(header, stored, progress);
+  }
+  else if (header.encoding == Encoding::Dicom)
+  {
+    read_dicom(header, stored, progress);
   }
   else
   {
-    read_binary(header, interleave ? planes.data() : bytes, progress);
+    read_binary(header, stored, progress);
   }
-  if (interleave)
+  if (planar)
   {
-    const std::size_t size = scalar_size(header.scalar);
-    const std::size_t voxels = header.voxels();
-    const std::size_t components = header.components;
-    for (std::size_t c = 0; c < components; ++c)
+    const std::size_t parts = header.part_planar ? header.parts.size() : 1;
+    const std::size_t each = header.bytes() / parts;
+    for (std::size_t part = 0; part < parts; ++part)
     {
-      for (std::size_t i = 0; i < voxels; ++i)
-      {
-        std::memcpy(bytes + (i * components + c) * size, planes.data() + (c * voxels + i) * size, size);
-      }
+      interleave(bytes + part * each, planes.data() + part * each, header.voxels() / parts,
+        header.components, scalar_size(header.scalar));
     }
   }
+  extend_signs(header, out);
 }
 
 void reverse_axis(

@@ -1,8 +1,12 @@
 #include "vtkBrumeImageReader.h"
 
+#include "dicom_series.h"
+#include "file_series.h"
+#include "memory_limit.h"
 #include "orientation.h"
 #include "scan_format.h"
 #include "scan_header.h"
+#include "scan_values.h"
 #include "voxel_reader.h"
 #include "vtk_volume_reader.h"
 
@@ -19,8 +23,9 @@
 #include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
-#include "vtksys/SystemInformation.hxx"
-
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -32,96 +37,12 @@ namespace
 {
 using namespace brume;
 
-int vtk_type(io::Scalar scalar)
+/// "0 to 6 s"
+std::string spoken_times(const std::vector<double>& times, const std::string& unit)
 {
-  switch (scalar)
-  {
-    case io::Scalar::Int8:
-      return VTK_SIGNED_CHAR;
-    case io::Scalar::UInt8:
-      return VTK_UNSIGNED_CHAR;
-    case io::Scalar::Int16:
-      return VTK_SHORT;
-    case io::Scalar::UInt16:
-      return VTK_UNSIGNED_SHORT;
-    case io::Scalar::Int32:
-      return VTK_INT;
-    case io::Scalar::UInt32:
-      return VTK_UNSIGNED_INT;
-    case io::Scalar::Int64:
-      return VTK_TYPE_INT64;
-    case io::Scalar::UInt64:
-      return VTK_TYPE_UINT64;
-    case io::Scalar::Float32:
-      return VTK_FLOAT;
-    case io::Scalar::Float64:
-      return VTK_DOUBLE;
-  }
-  return VTK_VOID;
-}
-
-bool rescales(const io::ScanHeader& header)
-{
-  return header.slope != 1 || header.intercept != 0;
-}
-
-/// The type that values have once slope and intercept are applied.
-int value_type(const io::ScanHeader& header)
-{
-  if (!rescales(header))
-  {
-    return vtk_type(header.scalar);
-  }
-  const bool wide = io::scalar_size(header.scalar) >= 4 && header.scalar != io::Scalar::Float32;
-  return wide ? VTK_DOUBLE : VTK_FLOAT;
-}
-
-template <typename In, typename Out>
-void rescale(const In* in, Out* out, vtkIdType count, double slope, double intercept)
-{
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    out[i] = static_cast<Out>(slope * static_cast<double>(in[i]) + intercept);
-  }
-}
-
-vtkSmartPointer<vtkDataArray> rescaled(vtkDataArray* stored, const io::ScanHeader& header)
-{
-  vtkSmartPointer<vtkDataArray> values;
-  values.TakeReference(vtkDataArray::CreateDataArray(value_type(header)));
-  values->SetNumberOfComponents(stored->GetNumberOfComponents());
-  values->SetNumberOfTuples(stored->GetNumberOfTuples());
-  const vtkIdType count = stored->GetNumberOfValues();
-  void* out = values->GetVoidPointer(0);
-  switch (stored->GetDataType())
-  {
-    vtkTemplateMacro(if (value_type(header) == VTK_FLOAT) rescale(
-                       static_cast<const VTK_TT*>(stored->GetVoidPointer(0)),
-                       static_cast<float*>(out), count, header.slope, header.intercept);
-                     else rescale(static_cast<const VTK_TT*>(stored->GetVoidPointer(0)),
-                       static_cast<double*>(out), count, header.slope, header.intercept));
-  }
-  return values;
-}
-
-/// A volume larger than the machine's memory would be granted page by page, and then end the
-/// program with no word: it is refused here.
-void check_memory(const io::ScanHeader& header)
-{
-  vtksys::SystemInformation machine;
-  const double memory = static_cast<double>(machine.GetHostMemoryTotal()) * 1024;
-  double need = static_cast<double>(header.bytes());
-  if (rescales(header))
-  {
-    need *= 1 + static_cast<double>(value_type(header) == VTK_FLOAT ? 4 : 8) /
-        io::scalar_size(header.scalar);
-  }
-  if (memory > 0 && need > memory)
-  {
-    const auto gigabytes = [](double bytes) { return std::to_string(bytes / 1e9).substr(0, 5); };
-    io::fail(header.path, "takes " + gigabytes(need) + " GB of memory, and this machine has " +
-        gigabytes(memory), "take a part of it, or a machine with more");
-  }
+  char text[80];
+  std::snprintf(text, sizeof(text), "%g to %g", times.front(), times.back());
+  return text + (unit.empty() ? "" : " " + unit);
 }
 }
 
@@ -139,11 +60,45 @@ struct vtkBrumeImageReader::Internals
   GridFrame Frame;
   vtkSmartPointer<vtkImageData> Image;
 
+  // Of a series: when each volume is, and, where each has a file of its own, those.
+  std::vector<double> Times;
+  std::string TimeUnit;
+  std::vector<io::NumberedFile> Files;
+  std::size_t Taken = 0; // the volume that Header, Frame and Image are of
+
+  std::string Series; // the one that is wanted
+  std::vector<io::DicomChoice> Choices;
+  std::uint64_t MaximumMemory = 0;
+
   void Clear() { *this = Internals(); }
 
   /// Everything but the voxels of a scan. Throws what the parsers throw.
   void Open(const std::string& path, const io::Progress& progress)
   {
+    if (io::is_file_pattern(path))
+    {
+      this->Files = io::numbered_files(path);
+      this->OpenFile(this->Files[0].path, progress);
+      if (this->Files.size() > 1 && this->Header.times.size() > 1)
+      {
+        io::fail(path, "each of its files is a series itself", "name one of them");
+      }
+      for (const io::NumberedFile& file : this->Files)
+      {
+        this->Times.push_back(static_cast<double>(file.number));
+      }
+      return;
+    }
+    this->OpenFile(path, progress);
+    this->Times = this->Header.times;
+    this->TimeUnit = this->Header.time_unit;
+  }
+
+  /// One file, of a series the first volume.
+  void OpenFile(const std::string& path, const io::Progress& progress)
+  {
+    this->Header = io::ScanHeader();
+    this->Image = nullptr;
     const io::Format format = io::find_format(path);
     if (format == io::Format::LegacyVtk)
     {
@@ -152,8 +107,9 @@ struct vtkBrumeImageReader::Internals
     if (format == io::Format::Vti || (format == io::Format::LegacyVtk && this->Header.parts.empty()))
     {
       this->Header = io::ScanHeader();
-      io::VtkVolume volume = format == io::Format::Vti ? io::read_vti(path, progress)
-                                                       : io::read_legacy(path, progress);
+      io::VtkVolume volume = format == io::Format::Vti
+        ? io::read_vti(path, this->MaximumMemory, progress)
+        : io::read_legacy(path, progress);
       this->Image = volume.image;
       this->Format = volume.format;
       this->Messages = volume.messages;
@@ -161,12 +117,15 @@ struct vtkBrumeImageReader::Internals
     }
     if (format != io::Format::LegacyVtk)
     {
-      this->Header = format == io::Format::Nifti ? io::read_nifti_header(path)
+      this->Header = format == io::Format::Dicom
+        ? io::read_dicom_header(path, this->Series, this->Choices)
+        : format == io::Format::Nifti            ? io::read_nifti_header(path)
         : format == io::Format::MetaImage        ? io::read_meta_header(path)
                                                  : io::read_nrrd_header(path);
     }
-    io::check_header(this->Header);
-    check_memory(this->Header);
+    io::check_header(io::select_volume(this->Header, 0));
+    io::check_series(this->Header);
+    io::check_memory(path, io::memory_need(this->Header), this->MaximumMemory);
     const std::array<long long, 3> dimensions{ { this->Header.dimensions[0],
       this->Header.dimensions[1], this->Header.dimensions[2] } };
     try
@@ -195,24 +154,91 @@ struct vtkBrumeImageReader::Internals
     }
   }
 
-  void ReadScan(vtkImageData* image, const io::Progress& progress) const
+  /// The volume whose time is nearest; the first of two that are as near.
+  std::size_t Nearest(double time) const
   {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < this->Times.size(); ++i)
+    {
+      if (std::abs(this->Times[i] - time) < std::abs(this->Times[best] - time))
+      {
+        best = i;
+      }
+    }
+    return best;
+  }
+
+  /// What RequestInformation has told of the volumes' lattice.
+  struct Lattice
+  {
+    std::array<int, 3> Dimensions;
+    int Type;
+    int Components;
+    bool operator==(const Lattice& o) const
+    {
+      return Dimensions == o.Dimensions && Type == o.Type && Components == o.Components;
+    }
+  };
+  Lattice GetLattice() const
+  {
+    Lattice lattice{ { { 0, 0, 0 } }, VTK_VOID, 0 };
+    if (this->Image)
+    {
+      this->Image->GetDimensions(lattice.Dimensions.data());
+      vtkDataArray* scalars = this->Image->GetPointData()->GetScalars();
+      lattice.Type = scalars->GetDataType();
+      lattice.Components = scalars->GetNumberOfComponents();
+      return lattice;
+    }
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      lattice.Dimensions[axis] = static_cast<int>(this->Header.dimensions[axis]);
+    }
+    lattice.Type = io::value_type(this->Header);
+    lattice.Components = static_cast<int>(this->Header.components);
+    return lattice;
+  }
+
+  /// Goes to a volume of a series whose volumes have files of their own.
+  void TakeFile(std::size_t index, const io::Progress& progress)
+  {
+    const bool released = !this->Image && this->Header.path.empty();
+    if (this->Files.empty() || (index == this->Taken && !released))
+    {
+      return;
+    }
+    const Lattice first = this->First;
+    this->OpenFile(this->Files[index].path, progress);
+    this->Taken = index;
+    if (!(this->GetLattice() == first))
+    {
+      io::fail(this->Files[index].path,
+        "is not of the size and type of the series' first, " + this->Files[0].path,
+        "name the files of one series");
+    }
+  }
+  Lattice First{ { { 0, 0, 0 } }, VTK_VOID, 0 };
+
+  void ReadScan(std::size_t index, vtkImageData* image, const io::Progress& progress) const
+  {
+    const io::ScanHeader header =
+      this->Files.empty() ? io::select_volume(this->Header, index) : this->Header;
+    io::check_header(header);
     vtkSmartPointer<vtkDataArray> stored;
-    stored.TakeReference(vtkDataArray::CreateDataArray(vtk_type(this->Header.scalar)));
-    stored->SetNumberOfComponents(static_cast<int>(this->Header.components));
-    stored->SetNumberOfTuples(static_cast<vtkIdType>(this->Header.voxels()));
-    io::read_voxels(this->Header, stored->GetVoidPointer(0), progress);
+    stored.TakeReference(vtkDataArray::CreateDataArray(io::vtk_type(header.scalar)));
+    stored->SetNumberOfComponents(static_cast<int>(header.components));
+    stored->SetNumberOfTuples(static_cast<vtkIdType>(header.voxels()));
+    io::read_voxels(header, stored->GetVoidPointer(0), progress);
+    vtkSmartPointer<vtkDataArray> values =
+      io::rescales(header) ? io::rescaled(stored, header) : stored;
     if (this->Frame.reversed_axis >= 0)
     {
-      io::reverse_axis(stored->GetVoidPointer(0), this->Header.dimensions,
-        this->Header.components * io::scalar_size(this->Header.scalar), this->Frame.reversed_axis);
+      io::reverse_axis(values->GetVoidPointer(0), header.dimensions,
+        header.components * values->GetDataTypeSize(), this->Frame.reversed_axis);
     }
-    vtkSmartPointer<vtkDataArray> values =
-      rescales(this->Header) ? rescaled(stored, this->Header) : stored;
-    values->SetName(this->Header.array.c_str());
-    image->SetExtent(0, static_cast<int>(this->Header.dimensions[0] - 1), 0,
-      static_cast<int>(this->Header.dimensions[1] - 1), 0,
-      static_cast<int>(this->Header.dimensions[2] - 1));
+    values->SetName(header.array.c_str());
+    image->SetExtent(0, static_cast<int>(header.dimensions[0] - 1), 0,
+      static_cast<int>(header.dimensions[1] - 1), 0, static_cast<int>(header.dimensions[2] - 1));
     image->SetSpacing(this->Frame.spacing.data());
     image->SetOrigin(this->Frame.origin.data());
     image->SetDirectionMatrix(this->Frame.direction.data());
@@ -229,6 +255,7 @@ vtkBrumeImageReader::vtkBrumeImageReader()
 vtkBrumeImageReader::~vtkBrumeImageReader()
 {
   delete[] this->FileName;
+  delete[] this->Series;
 }
 
 const char* vtkBrumeImageReader::GetErrorMessage() const
@@ -263,6 +290,28 @@ const char* vtkBrumeImageReader::GetValueUnit() const
   return this->Internal->ValueUnit.c_str();
 }
 
+int vtkBrumeImageReader::GetNumberOfSeries() const
+{
+  return static_cast<int>(this->Internal->Choices.size());
+}
+
+const char* vtkBrumeImageReader::GetNameOfSeries(int index) const
+{
+  return index >= 0 && index < this->GetNumberOfSeries() ? this->Internal->Choices[index].text.c_str()
+                                                         : nullptr;
+}
+
+const char* vtkBrumeImageReader::GetUIDOfSeries(int index) const
+{
+  return index >= 0 && index < this->GetNumberOfSeries() ? this->Internal->Choices[index].uid.c_str()
+                                                         : nullptr;
+}
+
+const char* vtkBrumeImageReader::GetTimeUnit() const
+{
+  return this->Internal->TimeUnit.c_str();
+}
+
 bool vtkBrumeImageReader::GetPatientAxes() const
 {
   return this->Internal->PatientAxes;
@@ -272,7 +321,8 @@ bool vtkBrumeImageReader::CanReadFile(const char* path)
 {
   try
   {
-    io::find_format(path ? path : "");
+    const std::string name = path ? path : "";
+    io::find_format(io::is_file_pattern(name) ? io::numbered_files(name)[0].path : name);
     return true;
   }
   catch (const std::exception&)
@@ -286,6 +336,8 @@ int vtkBrumeImageReader::RequestInformation(
 {
   Internals& self = *this->Internal;
   self.Clear();
+  self.MaximumMemory = static_cast<std::uint64_t>(this->MaximumMemory);
+  self.Series = this->Series ? this->Series : "";
   this->SetErrorCode(vtkErrorCode::NoError);
   this->SetAbortExecute(0);
   vtkInformation* info = outputVector->GetInformationObject(0);
@@ -302,6 +354,7 @@ int vtkBrumeImageReader::RequestInformation(
         this->UpdateProgress(done);
         return !this->GetAbortExecute();
       });
+    self.First = self.GetLattice();
     vtkImageData* image = self.Image;
     if (image)
     {
@@ -323,7 +376,17 @@ int vtkBrumeImageReader::RequestInformation(
       info->Set(vtkDataObject::ORIGIN(), self.Frame.origin.data(), 3);
       info->Set(vtkDataObject::DIRECTION(), self.Frame.direction.data(), 9);
       vtkDataObject::SetPointDataActiveScalarInfo(
-        info, value_type(self.Header), static_cast<int>(self.Header.components));
+        info, io::value_type(self.Header), static_cast<int>(self.Header.components));
+    }
+    info->Remove(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
+    info->Remove(vtkStreamingDemandDrivenPipeline::TIME_RANGE());
+    if (self.Times.size() > 1)
+    {
+      const auto ends = std::minmax_element(self.Times.begin(), self.Times.end());
+      const double range[2] = { *ends.first, *ends.second };
+      info->Set(vtkStreamingDemandDrivenPipeline::TIME_STEPS(), self.Times.data(),
+        static_cast<int>(self.Times.size()));
+      info->Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range, 2);
     }
   }
   catch (const std::bad_alloc&)
@@ -361,18 +424,35 @@ int vtkBrumeImageReader::RequestData(
       this->UpdateProgress(done);
       return !this->GetAbortExecute();
     };
-    if (self.Image || self.Header.path.empty())
+    vtkInformation* info = outputVector->GetInformationObject(0);
+    const bool asked = info->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
+    const std::size_t index =
+      asked ? self.Nearest(info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP())) : 0;
+    self.TakeFile(index, progress);
+    if (!self.Image && self.Header.path.empty())
     {
-      if (!self.Image)
-      {
-        self.Open(this->FileName, progress); // the output had been released
-      }
+      self.Open(this->FileName, progress); // the output had been released
+    }
+    if (self.Image)
+    {
       output->ShallowCopy(self.Image);
       self.Image = nullptr;
     }
     else
     {
-      self.ReadScan(output, progress);
+      self.ReadScan(index, output, progress);
+    }
+    if (self.Times.size() > 1)
+    {
+      self.Messages.erase(std::remove_if(self.Messages.begin(), self.Messages.end(),
+                            [](const std::string& m) { return m.compare(0, 12, "a series of ") == 0; }),
+        self.Messages.end());
+      char time[40];
+      std::snprintf(time, sizeof(time), "%g", self.Times[index]);
+      self.Messages.push_back("a series of " + std::to_string(self.Times.size()) +
+        " volumes, at " + spoken_times(self.Times, self.TimeUnit) + "; that at " + time +
+        " is taken");
+      output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), self.Times[index]);
     }
     this->UpdateProgress(1);
     return 1;
@@ -396,6 +476,9 @@ void vtkBrumeImageReader::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << '\n';
+  os << indent << "Series: " << (this->Series ? this->Series : "(none)") << '\n';
+  os << indent << "MaximumMemory: " << this->MaximumMemory << '\n';
+  os << indent << "TimeUnit: " << this->GetTimeUnit() << '\n';
   os << indent << "Format: " << this->GetFormat() << '\n';
   os << indent << "LengthUnit: " << this->GetLengthUnit() << '\n';
   os << indent << "ValueUnit: " << this->GetValueUnit() << '\n';

@@ -2,7 +2,7 @@
  * @class vtkBrumeImageReader
  * @brief Reads a scan or any other volume on a regular grid, upright and to scale.
  *
- * Opens NIfTI-1, NIfTI-2 and Analyze 7.5 (.nii, .nii.gz, .hdr with .img), MetaImage (.mha, .mhd),
+ * Opens DICOM (files, and folders with any below them), NIfTI-1, NIfTI-2 and Analyze 7.5 (.nii, .nii.gz, .hdr with .img), MetaImage (.mha, .mhd),
  * NRRD (.nrrd, .nhdr), VTK XML image data (.vti) and legacy VTK structured points (.vtk). The
  * format is found in the file's content; its name counts only where the content says nothing.
  *
@@ -39,10 +39,41 @@ public:
   ///@{
   /**
    * The file to read: for a pair of header and data (.hdr/.img, .mhd, .nhdr) the header; of
-   * .hdr/.img either. Default: none.
+   * .hdr/.img either; of DICOM a file or a folder, with all that is below it. A name that is no file and holds %d, %04d, #### or * in place of a number stands
+   * for a series over time, one file a volume, at the times that their numbers are. Default: none.
    */
   vtkSetFilePathMacro(FileName);
   vtkGetFilePathMacro(FileName);
+  ///@}
+
+  ///@{
+  /**
+   * Of a folder that holds several series: the one to read, by its number from 1 on in the list
+   * that the error without a choice gives, or by its UID. Default: none, which reads the only one.
+   */
+  vtkSetStringMacro(Series);
+  vtkGetStringMacro(Series);
+  ///@}
+
+  ///@{
+  /**
+   * The series of a folder of DICOM, known after UpdateInformation() whether or not it succeeded:
+   * what people know them by ("CT, Head 5.0, 512 x 512 x 40"), and their UIDs. The index is one less
+   * than the number that SetSeries() takes. Null for an index that there is not.
+   */
+  int GetNumberOfSeries() const;
+  const char* GetNameOfSeries(int index) const;
+  const char* GetUIDOfSeries(int index) const;
+  ///@}
+
+  ///@{
+  /**
+   * The most bytes that reading may take: stored numbers and values together. A file that would take
+   * more is an error before anything of that size is allocated. Default: 0, three quarters of the
+   * machine's memory.
+   */
+  vtkSetClampMacro(MaximumMemory, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
+  vtkGetMacro(MaximumMemory, vtkTypeInt64);
   ///@}
 
   /**
@@ -54,7 +85,7 @@ public:
   ///@{
   /**
    * What the reader settled by itself in the last update and the user may want to know, one line
-   * each: "a series of 4 volumes; the first is taken". GetMessage returns null beyond the last.
+   * each: "a series of 4 volumes, at 0 to 6 s; that at 0 is taken". GetMessage returns null beyond the last.
    */
   int GetNumberOfMessages() const;
   const char* GetMessage(int index) const;
@@ -65,6 +96,14 @@ public:
 
   /** Unit of spacing and origin: "mm", or as the format names it; empty where it names none. */
   const char* GetLengthUnit() const;
+
+  /**
+   * Unit of the times of a series: "s", or as the format names it; empty where it names none. The
+   * times themselves are the output information's TIME_STEPS(), which is there where the file holds
+   * more than one volume; the volume whose time is nearest to UPDATE_TIME_STEP() is read, without a
+   * request the first.
+   */
+  const char* GetTimeUnit() const;
 
   /** Unit of the values: "HU" for a CT that says so, or as the format names it; empty if unknown. */
   const char* GetValueUnit() const;
@@ -87,6 +126,8 @@ protected:
     vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector) override;
 
   char* FileName = nullptr;
+  char* Series = nullptr;
+  vtkTypeInt64 MaximumMemory = 0;
 
 private:
   vtkBrumeImageReader(const vtkBrumeImageReader&) = delete;

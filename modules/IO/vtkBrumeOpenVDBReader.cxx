@@ -1,5 +1,6 @@
 #include "vtkBrumeOpenVDBReader.h"
 
+#include "file_series.h"
 #include "scan_header.h"
 #include "vdb_file.h"
 
@@ -11,7 +12,9 @@
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <cmath>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -26,6 +29,21 @@ struct vtkBrumeOpenVDBReader::Internals
   std::string Error;
   std::vector<std::string> Messages;
   std::vector<io::VdbGrid> Grids;
+  std::vector<io::NumberedFile> Files; ///< of a series; else empty
+  std::string Path;                    ///< the file whose grids Grids are
+
+  /// The file of the volume nearest to a time; the first of two that are as near.
+  std::size_t Nearest(double time) const
+  {
+    const auto away = [&](std::size_t i)
+    { return std::abs(static_cast<double>(this->Files[i].number) - time); };
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < this->Files.size(); ++i)
+    {
+      best = away(i) < away(best) ? i : best;
+    }
+    return best;
+  }
 
   const io::VdbGrid* Grid(int index) const
   {
@@ -85,7 +103,15 @@ vtkBrumeOpenVDBReader::~vtkBrumeOpenVDBReader()
 
 bool vtkBrumeOpenVDBReader::CanReadFile(const char* path)
 {
-  return path && io::looks_like_vdb(path);
+  try
+  {
+    return path &&
+           io::looks_like_vdb(io::is_file_pattern(path) ? io::numbered_files(path)[0].path : path);
+  }
+  catch (const std::exception&)
+  {
+    return false; // there is no such file
+  }
 }
 
 int vtkBrumeOpenVDBReader::GetNumberOfGrids() const
@@ -175,13 +201,16 @@ void vtkBrumeOpenVDBReader::Guard(const Work& work)
 
 int vtkBrumeOpenVDBReader::RequestInformation(vtkInformation*,
   vtkInformationVector**,
-  vtkInformationVector*)
+  vtkInformationVector* outputVector)
 {
   Internals& self = *this->Internal;
   self = Internals();
   this->GridIndex = -1;
   this->SetErrorCode(vtkErrorCode::NoError);
   this->SetAbortExecute(0);
+  vtkInformation* info = outputVector->GetInformationObject(0);
+  info->Remove(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
+  info->Remove(vtkStreamingDemandDrivenPipeline::TIME_RANGE());
   this->Guard(
     [&]
     {
@@ -189,7 +218,26 @@ int vtkBrumeOpenVDBReader::RequestInformation(vtkInformation*,
       {
         throw std::runtime_error("vtkBrumeOpenVDBReader: no file name is set: call SetFileName");
       }
-      self.Grids = io::list_vdb_grids(this->FileName);
+      self.Path = this->FileName;
+      if (io::is_file_pattern(self.Path))
+      {
+        self.Files = io::numbered_files(self.Path);
+        self.Path = self.Files[0].path;
+      }
+      self.Grids = io::list_vdb_grids(self.Path);
+      if (self.Files.size() > 1)
+      {
+        std::vector<double> times;
+        for (const io::NumberedFile& file : self.Files)
+        {
+          times.push_back(static_cast<double>(file.number));
+        }
+        const double range[2] = { times.front(), times.back() };
+        info->Set(vtkStreamingDemandDrivenPipeline::TIME_STEPS(),
+          times.data(),
+          static_cast<int>(times.size()));
+        info->Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range, 2);
+      }
     });
   return 1; // the output is empty then; a failure here would only repeat the error in other words
 }
@@ -210,9 +258,29 @@ int vtkBrumeOpenVDBReader::RequestData(vtkInformation*,
   this->Guard(
     [&]
     {
-      const int index = self.Choose(this->FileName, this->GridName ? this->GridName : "");
-      const io::VdbVolume volume = io::read_vdb_grid(this->FileName,
+      if (!self.Files.empty())
+      {
+        vtkInformation* info = outputVector->GetInformationObject(0);
+        const bool asked = info->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
+        const io::NumberedFile& file = self.Files[asked
+            ? self.Nearest(info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
+            : 0];
+        if (file.path != self.Path)
+        {
+          self.Grids = io::list_vdb_grids(file.path);
+          self.Path = file.path;
+        }
+        output->GetInformation()->Set(
+          vtkDataObject::DATA_TIME_STEP(), static_cast<double>(file.number));
+        self.Messages.push_back("a series of " + std::to_string(self.Files.size()) +
+                                " volumes, at " + std::to_string(self.Files.front().number) +
+                                " to " + std::to_string(self.Files.back().number) + "; that at " +
+                                std::to_string(file.number) + " is taken");
+      }
+      const int index = self.Choose(self.Path, this->GridName ? this->GridName : "");
+      const io::VdbVolume volume = io::read_vdb_grid(self.Path,
         self.Grids[index],
+        static_cast<std::uint64_t>(this->MaximumMemory),
         [this](double done)
         {
           this->UpdateProgress(done);
@@ -224,7 +292,7 @@ int vtkBrumeOpenVDBReader::RequestData(vtkInformation*,
       output->SetIndexToWorld(matrix);
       output->SetName(volume.name);
       output->SetActiveVoxelCount(static_cast<vtkIdType>(volume.active_voxels));
-      self.Messages = volume.messages;
+      self.Messages.insert(self.Messages.end(), volume.messages.begin(), volume.messages.end());
       if (!this->GridName || !*this->GridName)
       {
         const std::size_t others = self.Grids.size() - 1;
@@ -249,6 +317,7 @@ void vtkBrumeOpenVDBReader::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << '\n';
   os << indent << "GridName: " << (this->GridName ? this->GridName : "(none)") << '\n';
+  os << indent << "MaximumMemory: " << this->MaximumMemory << '\n';
   os << indent << "GridIndex: " << this->GridIndex << '\n';
   for (int i = 0; i < this->GetNumberOfGrids(); ++i)
   {

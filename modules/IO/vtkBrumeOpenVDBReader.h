@@ -34,7 +34,10 @@ public:
 
   ///@{
   /**
-   * The file to read. Default: none.
+   * The file to read. A name that is no file and holds %d, %04d, #### or * in place of a number stands
+   * for a series over time, one file a volume, at the times that their numbers are: the output
+   * information's TIME_STEPS(). The one nearest to UPDATE_TIME_STEP() is read, without a request the
+   * first. Default: none.
    */
   vtkSetFilePathMacro(FileName);
   vtkGetFilePathMacro(FileName);
@@ -47,6 +50,15 @@ public:
    */
   vtkSetStringMacro(GridName);
   vtkGetStringMacro(GridName);
+  ///@}
+
+  ///@{
+  /**
+   * The most bytes that the sparse voxels may take. A grid that would take more is an error before
+   * its voxels are read. Default: 0, three quarters of the machine's memory.
+   */
+  vtkSetClampMacro(MaximumMemory, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
+  vtkGetMacro(MaximumMemory, vtkTypeInt64);
   ///@}
 
   ///@{
@@ -103,6 +115,7 @@ protected:
   char* FileName = nullptr;
   char* GridName = nullptr;
   int GridIndex = -1;
+  vtkTypeInt64 MaximumMemory = 0;
 
 private:
   vtkBrumeOpenVDBReader(const vtkBrumeOpenVDBReader&) = delete;

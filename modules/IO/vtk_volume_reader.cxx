@@ -2,6 +2,7 @@
 
 #include "file_access.h"
 #include "header_text.h"
+#include "memory_limit.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkBitArray.h"
@@ -11,6 +12,8 @@
 #include "vtkExecutive.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
+#include "vtkInformationInformationVectorKey.h"
+#include "vtkInformationVector.h"
 #include "vtkLogger.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -197,6 +200,29 @@ void settle_scalars(VtkVolume& volume, const std::string& path)
   }
 }
 
+/// What all arrays of an image of so many points take, in bytes, by what the reader says of them.
+double memory_of(vtkInformation* info, double voxels)
+{
+  double bytes = 0;
+  for (vtkInformationInformationVectorKey* key :
+    { vtkDataObject::POINT_DATA_VECTOR(), vtkDataObject::CELL_DATA_VECTOR() })
+  {
+    vtkInformationVector* arrays = info->Get(key);
+    for (int i = 0; arrays && i < arrays->GetNumberOfInformationObjects(); ++i)
+    {
+      vtkInformation* array = arrays->GetInformationObject(i);
+      const int components = array->Has(vtkDataObject::FIELD_NUMBER_OF_COMPONENTS())
+        ? array->Get(vtkDataObject::FIELD_NUMBER_OF_COMPONENTS())
+        : 1;
+      const int size = array->Has(vtkDataObject::FIELD_ARRAY_TYPE())
+        ? vtkDataArray::GetDataTypeSize(array->Get(vtkDataObject::FIELD_ARRAY_TYPE()))
+        : 8;
+      bytes += voxels * std::max(components, 1) * std::max(size, 1);
+    }
+  }
+  return std::max(bytes, voxels);
+}
+
 std::string read_range(const std::string& path, std::uint64_t from, std::size_t count)
 {
   std::string text(count, '\0');
@@ -223,7 +249,7 @@ void stop_on_error(const std::string& path, const Listener& listener, const Mess
 
 }
 
-VtkVolume read_vti(const std::string& path, const Progress& progress)
+VtkVolume read_vti(const std::string& path, std::uint64_t limit, const Progress& progress)
 {
   const std::uint64_t length = file_length(path, path);
   const std::string head = read_range(path, 0, 1 << 16);
@@ -270,6 +296,8 @@ VtkVolume read_vti(const std::string& path, const Progress& progress)
   const bool lzma = opening.find("LZMA") != std::string::npos;
   const bool packed = opening.find("compressor") != std::string::npos;
   check_promise(path, voxels, static_cast<double>(length) * (lzma ? 10000 : packed ? 1100 : 8));
+
+  check_memory(path, memory_of(info, voxels), limit);
 
   reader->Update();
   stop_on_error(path, listener, trap);

@@ -18,8 +18,9 @@ struct VtkVolume
   std::vector<std::string> messages;
 };
 
-/// VTK XML image data (.vti). Throws fail().
-VtkVolume read_vti(const std::string& path, const Progress& progress);
+/// VTK XML image data (.vti) whose arrays take no more than `limit` bytes (memory_limit.h). Throws
+/// fail().
+VtkVolume read_vti(const std::string& path, std::uint64_t limit, const Progress& progress);
 /// Legacy VTK structured points (.vtk) of the layouts that read_legacy_header() leaves to VTK. Throws
 /// fail().
 VtkVolume read_legacy(const std::string& path, const Progress& progress);

@@ -38,7 +38,41 @@ series ../series.nii
 run info ../series.nii
 expect_success
 expect_output '^dimensions +4 x 4 x 4 voxels$'
-expect_output '^note +.*2 volumes'
+expect_output '^note +a series of 2 volumes, at 0 to 1; that at 0 is taken$'
+
+case_ "a 4D NIfTI: a volume by its number or its time"
+series ../series.nii
+run info ../series.nii --time-step 1
+expect_success
+expect_output '^note +.*that at 1 is taken$'
+run info ../series.nii --time 0.9
+expect_success
+expect_output '^note +.*that at 1 is taken$'
+run info ../series.nii --time-step 2
+expect_failure 2
+run info ../series.nii --time 0 --time-step 0
+expect_failure 2
+blob ../blob.nrrd
+run info ../blob.nrrd --time 0
+expect_failure 2
+
+case_ "numbered files are a series"
+blob frame_0003.nrrd
+blob frame_0005.nrrd
+run info 'frame_%04d.nrrd' --time 5
+expect_success
+expect_output '^note +a series of 2 volumes, at 3 to 5; that at 5 is taken$'
+
+case_ "a limit on memory"
+blob ../blob.nrrd
+run info ../blob.nrrd --max-memory 4k
+expect_failure 1
+run info ../blob.nrrd --max-memory 1Mi
+expect_success
+for bad in 0 -1G 8Q G 1e30 8GG; do
+  run info ../blob.nrrd --max-memory "$bad"
+  expect_failure 2
+done
 
 bad_inputs info --json never.json
 

@@ -8,6 +8,7 @@
 #include "data-generators/random.h"
 #include "data-generators/sampling.h"
 #include "data-generators/signed_distance.h"
+#include "every_target.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -290,7 +291,75 @@ TEST(Cumulus, TheWindMovesItsNoise)
 
 TEST(Cumulus, HasTheSameBytesEverywhere)
 {
-  EXPECT_EQ(fingerprint(sampled(brume::Cumulus(), 48, 3.5)), 17658409127470333700ull);
+  EXPECT_EQ(fingerprint(sampled(brume::Cumulus(), 48, 3.5)), 11078721624907771432ull);
+}
+
+TEST(Cumulus, EveryTargetGivesTheBitsOfOneLane)
+{
+  const brume::Cumulus cloud;
+  const brume::Lattice grid = brume::grid_over(cloud.bounds(), 40);
+  brume_tests::expect_bits_of_one_lane(
+    cloud, { grid.origin, grid.spacing, { 0, 0, 0 }, grid.dimensions }, 12.0);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  brume_tests::expect_bits_of_one_lane(
+    cloud, { dvec3(0, nan, 500), dvec3(20.0), { -30, 0, 0 }, { 61, 1, 1 } }, 0.0);
+  brume_tests::expect_bits_of_one_lane(
+    cloud, { dvec3(0, 0, 500), dvec3(1e30, 1.0, 1.0), { -3, 0, 0 }, { 7, 3, 1 } }, 0.0);
+}
+
+TEST(Cumulus, ItsBoundsHold)
+{
+  const brume::Cumulus cloud;
+  brume::CumulusOptions flat;
+  flat.base = 500.0;
+  flat.top = 900.0;
+  flat.warp_amplitude = 120.0;
+  flat.offset = 0.3;
+  const brume::Cumulus other(flat);
+  for (const brume::Cumulus* c : { &cloud, &other })
+  {
+    int left_out = 0;
+    const dvec3 size = (c->bounds().upper - c->bounds().lower) / 16.0;
+    for (int n = 0; n < 16 * 16 * 16; ++n)
+    {
+      const dvec3 first = c->bounds().lower + dvec3(n % 16, n / 16 % 16, n / 256) * size;
+      const brume::FieldRange range = c->range_in({ first, first + size }, 5.0);
+      left_out += range.upper == 0.0f;
+      std::vector<float> inside(6 * 6 * 6);
+      c->values({ first, size / 5.0, { 0, 0, 0 }, { 6, 6, 6 } }, 5.0, inside.data());
+      for (const float v : inside)
+      {
+        ASSERT_LE(v, range.upper);
+        ASSERT_GE(v, range.lower);
+      }
+    }
+    EXPECT_GT(left_out, 16 * 16 * 16 / 3);
+  }
+}
+
+TEST(Cumulus, StandsBetweenItsBaseAndItsTop)
+{
+  brume::CumulusOptions options;
+  options.base = 700.0;
+  options.top = 2500.0;
+  const brume::Cumulus cloud(options);
+  EXPECT_NEAR(cloud.bounds().upper.z, 2660.0, 1e-9);
+  const brume::Lattice grid = brume::grid_over(cloud.bounds(), 96);
+  const std::vector<float> density = sampled(cloud, 96);
+  int lowest = grid.dimensions.z, highest = 0;
+  std::size_t n = 0;
+  for (int k = 0; k < grid.dimensions.z; ++k)
+    for (int j = 0; j < grid.dimensions.y; ++j)
+      for (int i = 0; i < grid.dimensions.x; ++i, ++n)
+        if (density[n] > 0.1f)
+        {
+          lowest = std::min(lowest, k);
+          highest = std::max(highest, k);
+        }
+  EXPECT_NEAR(grid.place(0, 0, lowest).z, 700.0, 80.0);
+  EXPECT_NEAR(grid.place(0, 0, highest).z, 2500.0, 350.0);
+  options.top = 600.0;
+  EXPECT_THROW(brume::Cumulus{ options }, std::invalid_argument);
 }
 
 TEST(Cumulus, RefusesOptionsThatMakeNoCloud)

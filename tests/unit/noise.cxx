@@ -1,6 +1,8 @@
 // Noise: ranges and means as documented, smoothness, and the same bits everywhere.
 #include "data-generators/noise.h"
+#include "data-generators/noise_field.h"
 #include "data-generators/random.h"
+#include "every_target.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +10,10 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <glm/common.hpp>
 #include <limits>
+#include <stdexcept>
+#include <vector>
 
 namespace
 {
@@ -103,12 +108,174 @@ TEST(Noise, PerlinsFormulaCannotPassItsScale)
   EXPECT_GT(largest, 1.0355);
 }
 
+TEST(Noise, SimplexsFormulaCannotPassItsScale)
+{
+  // The coordinates of a place from its tetrahedron's first corner, in falling order; the best
+  // gradient at each corner is the one along the two larger offsets.
+  double largest = 0.0;
+  const int steps = 90;
+  for (int i = 0; i <= steps; ++i)
+    for (int j = 0; j <= i; ++j)
+      for (int k = 0; k <= j; ++k)
+      {
+        // In the skewed cube, 1 >= a >= b >= c >= 0, and back.
+        const double skewed[3] = { i / double(steps), j / double(steps), k / double(steps) };
+        const double back = (skewed[0] + skewed[1] + skewed[2]) / 6.0;
+        double sum = 0.0;
+        for (int corner = 0; corner < 4; ++corner)
+        {
+          double offset[3], square = 0.0;
+          for (int a = 0; a < 3; ++a)
+          {
+            offset[a] = std::fabs(skewed[a] - back - (a < corner ? 1.0 : 0.0) + corner / 6.0);
+            square += offset[a] * offset[a];
+          }
+          std::sort(offset, offset + 3);
+          sum += std::pow(std::max(0.5 - square, 0.0), 4) * (offset[1] + offset[2]);
+        }
+        largest = std::max(largest, sum);
+      }
+  EXPECT_LE(largest, 0.0130072);
+  EXPECT_GT(largest, 0.01299);
+}
+
 TEST(Noise, PerlinIsZeroOnTheLattice)
 {
   for (int n = -20; n < 20; ++n)
   {
     EXPECT_EQ(brume::perlin_noise({ n, 3 * n - 1, 5 - n }, 3), 0.0f);
   }
+}
+
+TEST(Noise, SimplexHasItsDocumentedRangeMeanAndDeviation)
+{
+  const Statistics s = statistics([](const dvec3& p) { return brume::simplex_noise(p, 7); });
+  EXPECT_GE(s.low, -1.0);
+  EXPECT_LE(s.high, 1.0);
+  EXPECT_LT(s.low, -0.9);
+  EXPECT_GT(s.high, 0.9);
+  EXPECT_NEAR(s.mean, 0.0, 5 * s.deviation / std::sqrt(200000.0));
+  EXPECT_NEAR(s.deviation, 0.39, 0.02);
+}
+
+TEST(Noise, SimplexIsContinuousEverywhere)
+{
+  // Along lines that cross many tetrahedra: no jump at any face.
+  const double step = 1e-4;
+  for (int n = 0; n < 200; ++n)
+  {
+    const dvec3 p = random_place(n) * 0.01;
+    const dvec3 way(step * std::cos(n), step * std::sin(n), step * std::sin(2.0 * n + 1.0));
+    float before = brume::simplex_noise(p, 5);
+    for (int i = 1; i < 3000; ++i)
+    {
+      const float value = brume::simplex_noise(p + way * double(i), 5);
+      ASSERT_NEAR(value, before, 10.0 * step);
+      before = value;
+    }
+  }
+}
+
+TEST(Noise, PerlinWorleyHasItsDocumentedRangeAndMean)
+{
+  const Statistics s =
+    statistics([](const dvec3& p) { return brume::perlin_worley_noise(p, 7); }, 50000);
+  EXPECT_GE(s.low, 0.0);
+  EXPECT_LE(s.high, 1.0);
+  EXPECT_NEAR(s.mean, 0.74, 0.01);
+}
+
+TEST(Noise, TilesWithItsPeriod)
+{
+  const brume::NoisePeriod period(3, 5, 1);
+  const Octaves octaves{ 4, 2.3, 0.6 }; // frequencies that do not fit are fitted
+  for (int n = 0; n < 2000; ++n)
+  {
+    // Places on a grid of 1/1024, so that the sum with a period is exact.
+    dvec3 p = random_place(n);
+    p = glm::floor(p * 1024.0) / 1024.0;
+    for (const dvec3& tile : { dvec3(3, 0, 0), dvec3(0, -5, 0), dvec3(0, 0, 1), dvec3(-6, 10, 7) })
+    {
+      EXPECT_EQ(brume::perlin_noise(p, 2, period), brume::perlin_noise(p + tile, 2, period));
+      EXPECT_EQ(brume::worley_noise(p, 2, period), brume::worley_noise(p + tile, 2, period));
+      EXPECT_NEAR(
+        brume::fbm(p, 2, octaves, period), brume::fbm(p + tile, 2, octaves, period), 1e-5);
+      EXPECT_NEAR(brume::billow_fbm(p, 2, octaves, period),
+        brume::billow_fbm(p + tile, 2, octaves, period),
+        1e-5);
+      EXPECT_NEAR(brume::perlin_worley_noise(p, 2, octaves, period),
+        brume::perlin_worley_noise(p + tile, 2, octaves, period),
+        1e-5);
+    }
+  }
+  // And is no other noise between: the same but for what lies next to the seam.
+  EXPECT_EQ(brume::perlin_noise({ 1.3, 2.4, 3.7 }, 2, { 9, 9, 9 }),
+    brume::perlin_noise({ 1.3, 2.4, 3.7 }, 2));
+  EXPECT_NE(brume::perlin_noise({ 8.3, 2.4, 3.7 }, 2, { 9, 9, 9 }),
+    brume::perlin_noise({ 8.3, 2.4, 3.7 }, 2));
+}
+
+TEST(NoiseField, EveryTargetGivesTheBitsOfOneLane)
+{
+  for (const brume::NoiseKind kind : { brume::NoiseKind::Perlin,
+         brume::NoiseKind::Worley,
+         brume::NoiseKind::Simplex,
+         brume::NoiseKind::PerlinWorley })
+  {
+    for (const bool special : { false, true })
+    {
+      brume::NoiseOptions options;
+      options.kind = kind;
+      options.octaves.count = 3;
+      options.feature_size = 0.7;
+      if (special)
+      {
+        options.warp_size = 2.0;
+        options.warp_amplitude = 0.4;
+        options.period =
+          kind == brume::NoiseKind::Simplex ? brume::NoisePeriod(0) : brume::NoisePeriod(4, 0, 3);
+      }
+      const brume::NoiseField field(options);
+      // Rows of an odd length, negative places, lattice points among them.
+      brume_tests::expect_bits_of_one_lane(
+        field, { dvec3(-3.5), dvec3(0.175, 0.7, 0.233), { 0, 0, 0 }, { 37, 9, 11 } }, 0.0);
+      brume_tests::expect_bits_of_one_lane(
+        field, { dvec3(1e3, -1e6, 1e12), dvec3(0.1), { 0, 0, 0 }, { 8, 8, 8 } }, 0.0);
+      brume_tests::expect_bits_of_one_lane(
+        field, { dvec3(0.0), dvec3(1e14, 1.0, 0.1), { -20, 0, 0 }, { 41, 2, 1 } }, 0.0);
+    }
+  }
+}
+
+TEST(NoiseField, StaysInTheRangeThatItStates)
+{
+  for (const brume::NoiseKind kind : { brume::NoiseKind::Perlin, brume::NoiseKind::Worley })
+  {
+    brume::NoiseOptions options;
+    options.kind = kind;
+    const brume::NoiseField field(options);
+    const brume::FieldRange range = field.range_in(field.bounds(), 0.0);
+    for (int n = 0; n < 2000; ++n)
+    {
+      const float value = field.value(random_place(n), 0.0);
+      EXPECT_GE(value, range.lower);
+      EXPECT_LE(value, range.upper);
+    }
+  }
+}
+
+TEST(NoiseField, RefusesOptionsThatMakeNone)
+{
+  brume::NoiseOptions options;
+  options.feature_size = 0.0;
+  EXPECT_THROW(brume::NoiseField{ options }, std::invalid_argument);
+  options = {};
+  options.octaves.count = 0;
+  EXPECT_THROW(brume::NoiseField{ options }, std::invalid_argument);
+  options = {};
+  options.kind = brume::NoiseKind::Simplex;
+  options.period.y = 4;
+  EXPECT_THROW(brume::NoiseField{ options }, std::invalid_argument);
 }
 
 TEST(Noise, WorleyHasItsDocumentedRangeAndMean)
@@ -203,6 +370,10 @@ TEST(Noise, HasTheSameBitsEverywhere)
     fingerprint([](const dvec3& p) { return brume::worley_noise(p, 1); }), 2003843732513936470ull);
   EXPECT_EQ(fingerprint([](const dvec3& p) { return brume::fbm(brume::warp(p, 3, 1, 2), 1); }),
     646357105422222724ull);
+  EXPECT_EQ(
+    fingerprint([](const dvec3& p) { return brume::simplex_noise(p, 1); }), 2215778533023660991ull);
+  EXPECT_EQ(fingerprint([](const dvec3& p) { return brume::perlin_worley_noise(p, 1); }),
+    11744880916540874812ull);
 }
 
 TEST(Random, LogarithmAgreesWithTheLibrarys)
