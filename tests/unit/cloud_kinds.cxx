@@ -6,6 +6,7 @@
 #include "every_target.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -133,6 +134,35 @@ TEST(CloudKinds, EveryTargetGivesTheBitsOfOneLane)
       *cloud, { dvec3(0, nan, z), dvec3(20.0), { -30, 0, 0 }, { 61, 1, 1 } }, 0.0);
     brume_tests::expect_bits_of_one_lane(
       *cloud, { dvec3(0, 0, z), dvec3(1e30, 1.0, 1.0), { -3, 0, 0 }, { 7, 3, 1 } }, 0.0);
+  }
+}
+
+TEST(CloudKinds, AreTheSameBytesWithAnyNumberOfThreads)
+{
+  std::vector<std::unique_ptr<brume::Field>> fields;
+  for (const CloudKind kind : all_kinds())
+  {
+    fields.push_back(usual(kind));
+  }
+  for (const FogKind kind : { FogKind::Height, FogKind::Valley })
+  {
+    brume::FogOptions options;
+    options.kind = kind;
+    fields.push_back(std::make_unique<brume::FogBank>(options));
+  }
+  for (const std::unique_ptr<brume::Field>& field : fields)
+  {
+    std::vector<float> one;
+    for (const int threads : { 1, 2, 5, 16 })
+    {
+      tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+      const std::vector<float> values = Sampled(*field, 48).values;
+      if (threads == 1)
+      {
+        one = values;
+      }
+      EXPECT_EQ(one, values) << threads << " threads";
+    }
   }
 }
 
