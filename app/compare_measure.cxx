@@ -8,6 +8,7 @@
 
 #include "Transport/reference.h"
 
+#include "vtkBrumeEffectPlan.h"
 #include "vtkBrumeFog.h"
 #include "vtkBrumeMedium.h"
 #include "vtkBrumeRayMarchMapper.h"
@@ -233,6 +234,22 @@ ImageErrors ComparisonMeasure::check_march()
   return brume::measure(picture(film), picture(reference));
 }
 
+void ComparisonMeasure::simulate_all(double step, double shadow_step)
+{
+  this->Mapper->SetTolerance(0.0);
+  this->Mapper->GetEffectPlan()->ForceNothing();
+  this->Mapper->SetShadowMethod(vtkBrumeRayMarchMapper::RayShadows);
+  this->Mapper->SetShadowSampleDistance(shadow_step);
+  this->Mapper->SetSampleDistance(step);
+}
+
+void ComparisonMeasure::simulate_as_asked()
+{
+  this->Mapper->SetTolerance(this->Scene.options.tolerance);
+  apply(this->Scene.options.medium, this->Mapper);
+  this->Mapper->SetSampleDistance(this->Step);
+}
+
 Truth ComparisonMeasure::truth_by_march()
 {
   const auto start = std::chrono::steady_clock::now();
@@ -244,9 +261,7 @@ Truth ComparisonMeasure::truth_by_march()
   {
     ProgressBar bar("computing the truth, steps halved " + std::to_string(level) + " times", !quiet);
     this->Bar = &bar;
-    this->Mapper->SetShadowMethod(vtkBrumeRayMarchMapper::RayShadows);
-    this->Mapper->SetShadowSampleDistance(by_cells ? 0.0 : step);
-    this->Mapper->SetSampleDistance(step);
+    this->simulate_all(step, by_cells ? 0.0 : step);
     const Picture picture = this->over(this->march());
     this->Bar = nullptr;
     return picture;
@@ -280,8 +295,7 @@ Truth ComparisonMeasure::truth_by_march()
   truth.remaining_mean = std::max(truth.remaining_mean, check.mean_absolute);
   truth.remaining_largest = std::max(truth.remaining_largest, check.largest);
   truth.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  apply(this->Scene.options.medium, this->Mapper);
-  this->Mapper->SetSampleDistance(this->Step);
+  this->simulate_as_asked();
   this->TruePicture = truth.picture;
   return truth;
 }

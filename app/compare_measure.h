@@ -60,6 +60,12 @@ private:
   /// The truth of lit media: the ray march with shadow rays, its steps halved until the picture stands
   /// still, and checked by double precision at some pixels.
   Truth truth_by_march();
+  /// Sets the mapper to simulate all of the scene, with shadows by rays of these steps; and back to
+  /// what the user asked for.
+  ///@{
+  void simulate_all(double step, double shadow_step);
+  void simulate_as_asked();
+  ///@}
   /// How far march and double precision are apart at check_pixels × check_pixels pixels.
   ImageErrors check_march();
   /// The picture, as VTK's own mappers know the scene, of a fixed step in double precision, samples
