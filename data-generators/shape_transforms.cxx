@@ -135,7 +135,7 @@ struct Repeated : ShapeNode
       begin[a] = low;
       // Not more, where p is so far out that the quotients are rounded.
       const double most = std::max(std::floor((box.upper[a] - box.lower[a]) / s) + 2.0, 1.0);
-      count[a] = static_cast<int>(std::min(high - low + 1.0, most));
+      count[a] = static_cast<int>(std::min(most, high - low + 1.0));
     }
     double d = exact_outside ? infinity : nearest_unasked;
     glm::ivec3 o;

@@ -101,7 +101,7 @@ double skin_surface(const dvec3& place)
     sphere_distance(dvec3(p.x, p.y, 0.0), dvec3(0.0, -122.0 + 0.03 * p.z, 0.0), 16.0);
   d = smooth_difference(d, back, 14.0);
   return smooth_difference(
-    d, capsule_distance(p, dvec3(0.0, 120.0, -112.0), dvec3(0.0, 92.0, -112.0), 4.0, 4.0), 10.0);
+    d, capsule_distance(p, dvec3(0.0, 120.0, -112.0), dvec3(0.0, 101.0, -112.0), 4.0, 4.0), 7.0);
 }
 
 }
@@ -274,6 +274,7 @@ double lungs(const dvec3& p)
 {
   double d = within_ribs(p);
   d = smooth_intersection(d, -mediastinum(p), 6.0);
+  d = smooth_intersection(d, -34.0 - p.z, 6.0); // the lowest that lungs reach, behind
   return smooth_intersection(d, 3.0 - under_diaphragm(p), 4.0);
 }
 

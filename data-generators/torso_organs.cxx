@@ -24,7 +24,7 @@ double belly(const dvec3& p)
 {
   // Half widths and middles go down evenly from the ribs to the pelvis.
   const double low = ramp(p.z, -150.0, -255.0);
-  const Girth g{ mix(118.0, 58.0, low), mix(70.0, 50.0, low), mix(12.0, 2.0, low) };
+  const Girth g{ mix(118.0, 58.0, low), mix(66.0, 50.0, low), mix(9.0, 2.0, low) };
   const double wall = std::max(girth_distance(p, g), -272.0 - p.z);
   const double upper =
     std::max({ under_diaphragm(p) + 3.0, girth_distance(p, rib_girth(p.z)) + 9.0, -60.0 - p.z });
@@ -79,9 +79,9 @@ std::vector<std::vector<dvec3>> colon()
 {
   return { { dvec3(84.0, 24.0, -190.0), dvec3(92.0, 8.0, -140.0), dvec3(90.0, 10.0, -104.0) },
     { dvec3(90.0, 10.0, -104.0),
-      dvec3(64.0, 54.0, -104.0),
-      dvec3(0.0, 62.0, -112.0),
-      dvec3(-56.0, 54.0, -98.0),
+      dvec3(64.0, 38.0, -104.0),
+      dvec3(0.0, 50.0, -112.0),
+      dvec3(-56.0, 38.0, -98.0),
       dvec3(-88.0, 4.0, -52.0) },
     { dvec3(-88.0, 4.0, -52.0), dvec3(-96.0, -8.0, -100.0), dvec3(-92.0, 4.0, -170.0) },
     { dvec3(-92.0, 4.0, -170.0),
