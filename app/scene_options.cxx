@@ -71,16 +71,11 @@ std::string preset_names()
 
 void add_input(CLI::App& command, std::string& input, InputChoice& choice)
 {
-  std::string names;
-  for (const Sample& sample : samples())
-  {
-    names += (names.empty() ? "sample:" : ", sample:") + sample.name;
-  }
   command
     .add_option("INPUT", input,
       "A file (DICOM, .nii, .nii.gz, .mha, .mhd, .nrrd, .nhdr, .vti, .vtk, .vdb), numbered files of a series "
-      "(NAME%04d.EXT), a folder of DICOM, or a volume made on the spot (" +
-        names + ")")
+      "(NAME%04d.EXT), a folder of DICOM, or a volume made on the spot (sample:cloud, sample:fog, "
+      "sample:head-ct, sample:smoke, and every kind of brume generate --list)")
     ->required();
   command
     .add_option("--grid", choice.grid, "Which grid of an OpenVDB file [the first that can be read]")
