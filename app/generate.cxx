@@ -126,6 +126,10 @@ void add_kind(CLI::App& command, const Generator& generator)
   options->time = moment;
   CLI::App* kind = command.add_subcommand(generator.name, generator.summary);
   kind->group("Kinds");
+  if (const std::string other = short_name(generator); !other.empty())
+  {
+    kind->alias(other);
+  }
   kind
     ->add_option("--output,-o",
       options->output.path,
@@ -209,7 +213,9 @@ void add_generate(CLI::App& program)
       for (const Generator& generator : generators())
       {
         std::cout << generator.name << std::string(width + 2 - generator.name.size(), ' ')
-                  << generator.summary << '\n';
+                  << generator.summary;
+        const std::string other = short_name(generator);
+        std::cout << (other.empty() ? "" : " (also: " + other + ")") << '\n';
       }
     });
 }

@@ -66,6 +66,11 @@ const std::vector<Generator>& generators()
   return all;
 }
 
+std::string short_name(const Generator& generator)
+{
+  return generator.name == "cumulus" ? "cloud" : generator.name == "valley-fog" ? "fog" : "";
+}
+
 Input run_source(vtkAlgorithm* source, const GeneratorRequest& request)
 {
   Ear ear{ request, {} };

@@ -93,6 +93,9 @@ struct Generator
 /// Every kind, in the order in which they are listed.
 const std::vector<Generator>& generators();
 
+/// A shorter name of a kind, for `generate` and for `sample:NAME`; empty for most.
+std::string short_name(const Generator& generator);
+
 // The tables of the families; a file each.
 std::vector<Generator> cloud_generators(); ///< generate_clouds.cxx: clouds and fog
 std::vector<Generator>

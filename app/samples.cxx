@@ -9,14 +9,6 @@ namespace brume::app
 namespace
 {
 
-/// A shorter or older name of a kind.
-struct Alias
-{
-  const char* name;
-  const char* kind;
-};
-constexpr Alias Aliases[] = { { "cloud", "cumulus" }, { "fog", "valley-fog" } };
-
 Sample sample_of(const Generator& generator, const std::string& name)
 {
   return { name,
@@ -43,12 +35,10 @@ const std::vector<Sample>& samples()
     for (const Generator& generator : generators())
     {
       list.push_back(sample_of(generator, generator.name));
-      for (const Alias& alias : Aliases)
+      const std::string other = short_name(generator);
+      if (!other.empty())
       {
-        if (generator.name == alias.kind)
-        {
-          list.push_back(sample_of(generator, alias.name));
-        }
+        list.push_back(sample_of(generator, other));
       }
     }
     return list;

@@ -105,14 +105,14 @@ std::string numbered_path(const std::string& path, int number)
 
 std::string volume_endings()
 {
-  return ".vdb, .vti, .nrrd, .mha, .nii or .nii.gz";
+  return ".vdb, .vti, .nrrd, .mha, .nii, .nii.gz, .raw or .tif";
 }
 
 void add_volume_output(CLI::App& command, VolumeOutput& output)
 {
   command.add_flag("--compress",
     output.compress,
-    "Deflate the voxels of a .vti, .nrrd or .mha: smaller and slower (.nii.gz always does)");
+    "Deflate the voxels of a .vti, .nrrd, .mha or .tif: smaller and slower (.nii.gz always does)");
   command.add_flag("--half", output.half, "Write a .vdb in half precision: 11 bits, up to 65504");
   command
     .add_option("--background",
@@ -154,6 +154,10 @@ void check_volume_output(const VolumeOutput& output, const std::string& input)
   if (output.compress && sparse)
   {
     refuse("--compress", "OpenVDB's files always are compressed");
+  }
+  if (output.compress && ends_with(output.path, ".raw"))
+  {
+    refuse("--compress", "raw voxels are stored as they are");
   }
   if (output.compress && (ends_with(output.path, ".nii") || ends_with(output.path, ".nii.gz")))
   {

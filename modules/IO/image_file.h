@@ -56,6 +56,10 @@ void write_nrrd(ImageFile& image, const std::string& path);
 void write_meta(ImageFile& image, const std::string& path);
 /// NIfTI-1 in one file, gzipped where the path ends in .gz; the affine as sform and qform.
 void write_nifti(ImageFile& image, const std::string& path);
+/// Raw voxels, and PATH.json that describes them; both keep all of it but the name.
+void write_raw(ImageFile& image, const std::string& path);
+/// A TIFF of one page a slice, deflated or not; spacing and unit as ImageJ has them.
+void write_tiff(ImageFile& image, const std::string& path);
 
 // What the above share.
 

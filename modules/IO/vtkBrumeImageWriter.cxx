@@ -36,6 +36,8 @@ enum class Kind
   Nrrd,
   Meta,
   Nifti,
+  Raw,
+  Tiff,
   None
 };
 
@@ -51,6 +53,8 @@ Kind kind_of(const std::string& path)
          : ends(".nrrd")                   ? Kind::Nrrd
          : ends(".mha")                    ? Kind::Meta
          : ends(".nii") || ends(".nii.gz") ? Kind::Nifti
+         : ends(".raw")                    ? Kind::Raw
+         : ends(".tif") || ends(".tiff")   ? Kind::Tiff
                                            : Kind::None;
 }
 
@@ -198,7 +202,7 @@ void vtkBrumeImageWriter::WriteData()
     {
       io::fail(this->FileName,
         "its ending names no format that holds a volume",
-        "end it in .vti, .nrrd, .mha, .nii or .nii.gz");
+        "end it in .vti, .nrrd, .mha, .nii, .nii.gz, .raw or .tif");
     }
     vtkImageData* image = vtkImageData::SafeDownCast(this->GetInput());
     io::ImageFile file = io::view_of(image, this->FileName);
@@ -229,6 +233,12 @@ void vtkBrumeImageWriter::WriteData()
         break;
       case Kind::Meta:
         io::write_meta(file, this->FileName);
+        break;
+      case Kind::Raw:
+        io::write_raw(file, this->FileName);
+        break;
+      case Kind::Tiff:
+        io::write_tiff(file, this->FileName);
         break;
       default:
         io::write_nifti(file, this->FileName);

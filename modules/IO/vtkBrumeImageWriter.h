@@ -8,6 +8,8 @@
  * | .nrrd | NRRD |
  * | .mha | MetaImage in one file |
  * | .nii, .nii.gz | NIfTI-1 |
+ * | .raw | raw voxels, and NAME.raw.json beside them, which describes them |
+ * | .tif, .tiff | TIFF, one page a slice; no origin, no direction |
  *
  * All but VTI hold the scalars alone. Spacing, origin and direction go into the file's own terms,
  * as vtkBrumeImageReader reads them, so that what is written comes back in its place: left-handed
@@ -66,7 +68,7 @@ public:
 
   ///@{
   /**
-   * Whether voxels are deflated: NRRD, MetaImage and VTI, which leave the choice. Default: off.
+   * Whether voxels are deflated: NRRD, MetaImage, VTI and TIFF, which leave the choice. Default: off.
    */
   vtkSetMacro(Compress, bool);
   vtkGetMacro(Compress, bool);

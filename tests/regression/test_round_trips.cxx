@@ -93,7 +93,7 @@ TEST(RoundTrips, NoFormatChangesThePictureBeyondItsOwnRounding)
       data->GetCenter(centre);
       const brume::Film expected = draw(data, centre);
       ASSERT_GT(most_opaque(expected), 0.8);
-      for (const char* ending : { ".vti", ".nrrd", ".mha", ".nii", ".nii.gz" })
+      for (const char* ending : { ".vti", ".nrrd", ".mha", ".nii", ".nii.gz", ".raw" })
       {
         for (bool patient : { false, true })
         {

@@ -164,7 +164,8 @@ const Format Formats[] = { { ".vti", false, 1e-12 },
   { ".mha", false, 1e-12 },
   { ".mha", true, 1e-12 },
   { ".nii", false, 2e-5 },
-  { ".nii.gz", false, 2e-5 } };
+  { ".nii.gz", false, 2e-5 },
+  { ".raw", false, 1e-12 } };
 
 TEST(ImageWriter, WhatIsWrittenComesBackInEachFormatTypeAndPlace)
 {
@@ -228,6 +229,56 @@ TEST(ImageWriter, WhatIsWrittenComesBackInEachFormatTypeAndPlace)
   }
 }
 
+// A TIFF holds voxels, spacing and the unit of lengths, and tells that the rest is lost.
+TEST(ImageWriter, TiffHoldsVoxelsAndSpacing)
+{
+  const std::string where = folder("tiff");
+  for (int type : { VTK_UNSIGNED_CHAR, VTK_SHORT, VTK_UNSIGNED_SHORT, VTK_INT, VTK_FLOAT, VTK_DOUBLE })
+  {
+    for (const bool compress : { false, true })
+    {
+      SCOPED_TRACE("type " + std::to_string(type) + (compress ? ", deflated" : ""));
+      const auto image = image_of(type, Frames[0], type == VTK_FLOAT ? 3 : 1);
+      const std::string path = where + "/" + std::to_string(type) + ".tif";
+      vtkNew<vtkBrumeImageWriter> writer;
+      writer->SetInputData(image);
+      writer->SetFileName(path.c_str());
+      writer->SetLengthUnit("mm");
+      writer->SetCompress(compress);
+      ASSERT_EQ(writer->Write(), 1) << writer->GetErrorMessage();
+      ASSERT_GE(writer->GetNumberOfMessages(), 1);
+      EXPECT_NE(std::string(writer->GetMessage(0)).find("origin"), std::string::npos);
+      vtkNew<vtkBrumeImageReader> reader;
+      reader->SetFileName(path.c_str());
+      reader->Update();
+      ASSERT_STREQ(reader->GetErrorMessage(), "");
+      EXPECT_STREQ(reader->GetLengthUnit(), "mm");
+      vtkImageData* read = reader->GetOutput();
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        EXPECT_EQ(read->GetDimensions()[axis], image->GetDimensions()[axis]);
+        EXPECT_NEAR(read->GetSpacing()[axis], image->GetSpacing()[axis], 1e-6);
+      }
+      vtkDataArray* out = read->GetPointData()->GetScalars();
+      vtkDataArray* in = image->GetPointData()->GetScalars();
+      ASSERT_EQ(out->GetNumberOfValues(), in->GetNumberOfValues());
+      for (vtkIdType i = 0; i < in->GetNumberOfTuples(); ++i)
+      {
+        for (int k = 0; k < in->GetNumberOfComponents(); ++k)
+        {
+          ASSERT_EQ(out->GetComponent(i, k), in->GetComponent(i, k)) << i;
+        }
+      }
+    }
+  }
+  vtkNew<vtkBrumeImageWriter> writer;
+  const Ear ear(writer);
+  writer->SetInputData(image_of(VTK_LONG, Frames[0]));
+  writer->SetFileName((where + "/long.tif").c_str());
+  EXPECT_EQ(writer->Write(), 0);
+  EXPECT_NE(std::string(writer->GetErrorMessage()).find("64 bits"), std::string::npos);
+}
+
 TEST(ImageWriter, TellsWhatAFormatCannotHold)
 {
   const std::string where = folder("messages");
@@ -289,7 +340,7 @@ TEST(VolumeWriters, ErrorsAreToldAndLeaveNothing)
   vtkNew<vtkImageData> long_one;
   long_one->SetDimensions(40000, 1, 1);
   long_one->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
-  for (const std::string& ending : { ".vti", ".nrrd", ".mha", ".nii", ".nii.gz" })
+  for (const std::string& ending : { ".vti", ".nrrd", ".mha", ".nii", ".nii.gz", ".raw", ".tif" })
   {
     vtkNew<vtkBrumeImageWriter> writer;
     writer->SetInputData(image);
@@ -341,7 +392,7 @@ TEST(VolumeWriters, StopWhenAskedAndLeaveTheFormerFile)
     fs::remove(path);
     EXPECT_TRUE(fs::is_empty(where));
   };
-  for (const char* name : { "a.vti", "a.nrrd", "a.mha", "a.nii.gz" })
+  for (const char* name : { "a.vti", "a.nrrd", "a.mha", "a.nii.gz", "a.raw", "a.tif" })
   {
     vtkNew<vtkBrumeImageWriter> writer;
     writer->SetCompress(name[2] == 'm');
