@@ -96,6 +96,11 @@ Picture in_8_bits(const Picture& picture)
 
 }
 
+Picture ComparisonMeasure::over_stock(const Film& film) const
+{
+  return { film.width, film.height, over_scene(film, this->Scene, this->StockSurfaces) };
+}
+
 struct ComparisonMeasure::TrueFilm
 {
   Film film;
@@ -120,7 +125,9 @@ ComparisonMeasure::ComparisonMeasure(const VolumeScene& scene, double step, int 
   this->Mapper->SetSampleDistance(step);
   this->Surfaces = draw_meshes(scene);
   this->Mapper->SetSurfaceDepth(this->Surfaces.depth);
-  this->StockMapper->SetSurfaceDepth(this->Surfaces.depth);
+  this->StockSurfaces =
+    this->Stock.volume && scene.sky ? draw_meshes(this->Stock) : this->Surfaces;
+  this->StockMapper->SetSurfaceDepth(this->StockSurfaces.depth);
   vtkNew<vtkCallbackCommand> observer;
   observer->SetClientData(this);
   observer->SetCallback(
@@ -268,6 +275,7 @@ Truth ComparisonMeasure::truth_by_march()
   };
   Truth truth;
   truth.picture = march_with(0);
+  bool settled = false;
   for (;;)
   {
     step *= 0.5;
@@ -276,18 +284,20 @@ Truth ComparisonMeasure::truth_by_march()
     truth.picture = finer;
     truth.remaining_mean = change.mean_absolute / 3.0;
     truth.remaining_largest = change.largest / 3.0;
-    if ((truth.remaining_largest <= settled_largest && truth.remaining_mean <= settled_mean) ||
-      truth.refinement_levels >= most_halvings || step <= shortest_step * this->Scene.voxel_edge)
+    settled =
+      truth.remaining_largest <= settled_largest && truth.remaining_mean <= settled_mean;
+    if (settled || truth.refinement_levels >= most_halvings || step <= shortest_step * this->Scene.voxel_edge)
     {
       break;
     }
   }
   const ImageErrors check = this->check_march();
   truth.method =
-    "Single scattering of every light: Brume's ray march with shadows by rays, its steps halved until "
-    "the picture changes by no more than " +
-    nlohmann::json(3.0 * settled_largest).dump() +
-    " of white, or to 1/16 of a voxel's edge; about a third of the last change remains as its error. "
+    "Single scattering of every light: Brume's ray march with shadows by rays, its steps halved " +
+    std::to_string(truth.refinement_levels) + " times, until the picture " +
+    (settled ? "changed by no more than " + nlohmann::json(3.0 * settled_largest).dump() + " of white"
+             : std::string("was as fine as is tried, and still changed")) +
+    "; about a third of the last change remains as its error. "
     "Brume's integrator in double precision, which shares no arithmetic with it, was run for " +
     std::to_string(check_pixels * check_pixels) + " pixels spread over the view: they differ by " +
     two_digits(check.mean_absolute) + " of white in the mean and by " + two_digits(check.largest) +
@@ -318,7 +328,7 @@ Picture ComparisonMeasure::fixed_step(int placement, double leave_below)
     });
   bar.clear();
   InterruptionWatch::check("compare");
-  return this->over(film);
+  return plain ? this->over(film) : this->over_stock(film);
 }
 
 ComparisonEntry ComparisonMeasure::measure(const MapperName& mapper)
@@ -417,7 +427,7 @@ void ComparisonMeasure::measure_stock(ComparisonEntry& entry, MapperKind kind)
   entry.left_out = this->LeftOut;
   if (this->StockTruth.rgb.empty())
   {
-    this->StockTruth = this->over(
+    this->StockTruth = this->over_stock(
       this->true_film(this->StockMapper, this->Stock.volume, "computing the truth of what VTK knows")
         .film);
   }
@@ -426,7 +436,7 @@ void ComparisonMeasure::measure_stock(ComparisonEntry& entry, MapperKind kind)
     time_renders(this->Repetitions, [&] { return renderer.render(); });
   entry.timing.prepare = std::max(0.0, entry.timing.warm_up - entry.timing.median);
   const bool fixed = kind == MapperKind::FixedPoint;
-  entry.picture = fixed ? this->over(renderer.film()) : renderer.picture();
+  entry.picture = fixed ? this->over_stock(renderer.film()) : renderer.picture();
   const Picture frame = renderer.frame();
   this->Films[entry.mapper] = renderer.film();
   entry.statistics =

@@ -72,6 +72,7 @@ private:
   /// placed as told.
   Picture fixed_step(int placement, double leave_below);
   Picture over(const Film& film) const;
+  Picture over_stock(const Film& film) const;
   /// Whether the scene only absorbs and emits, as VTK's own mappers have it.
   bool plain() const;
 
@@ -79,6 +80,7 @@ private:
   VolumeScene Stock;                ///< what of the scene VTK's own mappers know
   std::vector<std::string> LeftOut; ///< what they do not
   SurfacePicture Surfaces;
+  SurfacePicture StockSurfaces; ///< in the light that VTK's own mappers know
   double Step;
   int Repetitions;
   vtkNew<vtkBrumeRayMarchMapper> Mapper;

@@ -89,8 +89,9 @@ std::vector<std::string> left_out_by_stock(const SceneOptions& options)
       words.emplace_back(name);
     }
   };
-  add(medium.has_medium(), "light scattered in the medium");
-  add(medium.has_medium(), "shadows in the medium");
+  const bool scatters = medium.has_medium() && any(medium.albedo);
+  add(scatters, "light scattered in the medium");
+  add(scatters, "shadows in the medium");
   add(any(medium.emission) || medium.black_body > 0.0, "light that the medium emits");
   add(any(medium.sky_radiance) || any(medium.ground_radiance), "light of sky and ground");
   add(!medium.environment.empty(), "light of the environment");
