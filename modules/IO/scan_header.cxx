@@ -43,7 +43,12 @@ std::uint64_t ScanHeader::bytes() const
 
 void fail(const std::string& path, const std::string& wrong, const std::string& remedy)
 {
-  throw std::runtime_error(path + ": " + wrong + ": " + remedy);
+  std::string text = wrong + ": " + remedy;
+  for (char& c : text)
+  {
+    c = static_cast<unsigned char>(c) < 32 || c == 127 ? '?' : c; // of a damaged file's own words
+  }
+  throw std::runtime_error(path + ": " + text);
 }
 
 void check_header(const ScanHeader& header)

@@ -109,7 +109,7 @@ struct vtkBrumeImageReader::Internals
       this->Header = io::ScanHeader();
       io::VtkVolume volume = format == io::Format::Vti
         ? io::read_vti(path, this->MaximumMemory, progress)
-        : io::read_legacy(path, progress);
+        : io::read_legacy(path, this->MaximumMemory, progress);
       this->Image = volume.image;
       this->Format = volume.format;
       this->Messages = volume.messages;
