@@ -68,7 +68,7 @@ std::vector<unsigned char> decode_dicom(const std::string& owner, const std::str
     throw std::bad_alloc();
   }
   const GuardResult result = run_guarded([&] { return decode(path, shared, bytes, scalar_size, frames); },
-    5 + static_cast<double>(bytes) / 4e6, 8 * static_cast<double>(bytes) + (256 << 20));
+    1 + static_cast<double>(bytes) / 4e6, 8 * static_cast<double>(bytes) + (256 << 20));
   const bool done = result.end == GuardEnd::Finished && result.status == Decoded;
   if (done)
   {

@@ -101,7 +101,7 @@ void check_header(const ScanHeader& header)
     {
       most = available > (std::uint64_t(1) << 50) ? wanted : available * 1032;
     }
-    else if (header.encoding == Encoding::Dicom)
+    else if (header.encoding == Encoding::Dicom || header.encoding == Encoding::Pictures)
     {
       most = available > 0 ? wanted : 0; // as many as a decoder likes to make
     }

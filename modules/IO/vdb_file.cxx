@@ -296,7 +296,7 @@ std::vector<VdbGrid> list_vdb_grids(const std::string& path)
     fail(path, "is not an OpenVDB file", "name a .vdb file");
   }
   openvdb::initialize();
-  rehearse(path, [&] { list_grids(path, length); }, 5, 32 << 20);
+  rehearse(path, [&] { list_grids(path, length); }, 1, 32 << 20);
   return list_grids(path, length);
 }
 
@@ -328,7 +328,7 @@ VdbVolume read_vdb_grid(const std::string& path,
                 read_voxels_of<openvdb::DoubleGrid>(*grid);
             });
         },
-        5 + length / 5e6,
+        1 + length / 5e6,
         static_cast<double>(memory_limit(limit)),
         [&](double) { return !progress || progress(0); });
       const auto file = open_file(path);

@@ -370,8 +370,8 @@ VtkVolume read_guarded(const std::string& path, std::uint64_t limit, const Progr
       return say(error.what()) ? Refused : NoMemory;
     }
   };
-  // Five seconds and as long as a slow disk and a text of numbers take.
-  const GuardResult result = run_guarded(work, 5 + length / 5e6,
+  // A second and as long as a slow disk and a text of numbers take.
+  const GuardResult result = run_guarded(work, 1 + length / 5e6,
     1.25 * static_cast<double>(memory_limit(limit)) + (64 << 20), progress, done);
   munmap(page, sizeof(double));
   VtkVolume volume;

@@ -17,8 +17,10 @@
 #include <fstream>
 
 #if defined(__SANITIZE_ADDRESS__)
-#include <sanitizer/allocator_interface.h>
-#include <sanitizer/common_interface_defs.h>
+// GCC brings the functions, and not their headers.
+extern "C" int __sanitizer_install_malloc_and_free_hooks(
+  void (*)(const volatile void*, std::size_t), void (*)(const volatile void*));
+extern "C" void __sanitizer_set_report_fd(void*);
 
 // The runtime's own habits: it must tell a request that is too large by failing, as malloc does, and
 // keep little of what was freed.
@@ -58,6 +60,13 @@ void too_late(int)
   (void)!write(3, where, std::strlen(where));
   (void)!write(3, "\n", 1);
   _exit(3);
+}
+
+/// Ends the process after so many seconds of processor time, which a busy machine does not stretch.
+void watch(int seconds)
+{
+  const itimerval limit{ { 0, 0 }, { seconds, 0 } };
+  setitimer(ITIMER_PROF, &limit, nullptr);
 }
 
 std::string folder_of_test()
@@ -153,6 +162,7 @@ void try_reader(const std::vector<Example>& examples, const Read& read, int usua
   static const int hooked = __sanitizer_install_malloc_and_free_hooks(on_malloc, on_free);
   ASSERT_NE(hooked, 0);
 #endif
+  std::signal(SIGPROF, too_late);
   std::signal(SIGALRM, too_late);
   largest = 0;
   const double peak_before = peak_megabytes();
@@ -169,8 +179,10 @@ void try_reader(const std::vector<Example>& examples, const Read& read, int usua
     std::snprintf(where, sizeof(where), "%s, number %d", path.c_str(), number);
     std::ofstream(folder + "/number") << number << '\n';
     const auto start = std::chrono::steady_clock::now();
-    alarm(11);
+    watch(10);
+    alarm(300);
     const std::string error = read(path);
+    watch(0);
     alarm(0);
     const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

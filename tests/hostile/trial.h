@@ -22,7 +22,7 @@ using Read = std::function<std::string(const std::string& path)>;
 int files_of_each_reader(int usual);
 
 /// Reads damaged versions of the examples, which must be whole. Fails the running test where
-/// - reading takes more than 10 s (the process ends then, and the file is left where it was);
+/// - reading takes more than 10 s of processor time, or 300 s by the clock (the process ends then, and the file is left where it was);
 /// - one allocation, or what is held at once, is beyond the limit on memory and what small things take;
 /// - an error is not one line "PATH: what is wrong: what to do", or says that memory has run out;
 /// - anything is written to standard error.
