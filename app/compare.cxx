@@ -1,13 +1,16 @@
 // brume compare: the same scene by several mappers, timed and measured against the truth.
 #include "command.h"
 #include "compare_measure.h"
+#include "display_options.h"
 #include "interruption.h"
 #include "machine.h"
 #include "mapper_names.h"
 #include "option_checks.h"
 #include "presets.h"
 #include "private_display.h"
+#include "scene_description.h"
 #include "scene_options.h"
+#include "stock_scene.h"
 #include "volume_scene.h"
 
 #include "Analysis/comparison.h"
@@ -21,14 +24,7 @@
 #include "atomic_file.h"
 #include "film_io.h"
 
-#include "Transport/sparse_voxels.h"
-
 #include "vtkBrumeSparseVolume.h"
-
-#include "vtkCamera.h"
-#include "vtkImageData.h"
-#include "vtkVolume.h"
-#include "vtkVolumeProperty.h"
 
 #include <CLI/CLI.hpp>
 
@@ -38,7 +34,6 @@
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <sstream>
 
 namespace brume::app
 {
@@ -51,23 +46,12 @@ namespace fs = std::filesystem;
 struct Options
 {
   SceneOptions scene;
+  DisplayOptions display;
   std::string output;
   std::vector<std::string> mappers;
   int repetitions = 5;
   std::string command_line;
 };
-
-std::string text(double value)
-{
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
-
-std::string length(double value, const std::string& unit)
-{
-  return text(value) + (unit.empty() ? "" : " " + unit);
-}
 
 /// The folder is made before the work, so that a place that cannot be written is told at once.
 /// Folders that were made here go again when the work fails.
@@ -128,64 +112,6 @@ private:
   bool Kept = false;
 };
 
-SceneDescription describe(const VolumeScene& scene, double step)
-{
-  SceneDescription d;
-  const std::string& unit = scene.input.length_unit;
-  vtkVolumeProperty* property = scene.volume->GetProperty();
-  d.input = scene.input.name;
-  if (vtkBrumeSparseVolume* sparse = scene.input.sparse)
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      d.dimensions[axis] = sparse->GetVoxels()->dims()[axis] - sparse->GetVoxels()->first()[axis];
-    }
-    sparse->GetSpacing(d.spacing.data());
-  }
-  else
-  {
-    scene.input.image->GetDimensions(d.dimensions.data());
-    scene.input.image->GetSpacing(d.spacing.data());
-  }
-  d.unit = unit;
-  d.preset = scene.preset->name;
-  d.width = scene.width();
-  d.height = scene.height();
-  d.step = step;
-  d.step_voxels = step / scene.voxel_edge;
-  d.opacity_unit_distance = scene.opacity_unit_distance;
-  scene.camera->GetPosition(d.camera.position.data());
-  scene.camera->GetFocalPoint(d.camera.focal_point.data());
-  scene.camera->GetViewUp(d.camera.view_up.data());
-  d.camera.view_angle = scene.camera->GetViewAngle();
-  d.camera.parallel = scene.camera->GetParallelProjection() != 0;
-  d.camera.parallel_scale = scene.camera->GetParallelScale();
-  d.background = scene.options.background;
-  d.shading = property->GetShade() != 0;
-  d.interpolation = scene.options.interpolation;
-  d.lights = { "headlight, white, intensity 1, with white ambient light" };
-  const std::string all = "all mappers";
-  d.matched = {
-    { "transfer functions", scene.preset->title + " (" + scene.preset->name + ")", all },
-    { "opacity unit distance", length(scene.opacity_unit_distance, unit), all },
-    { "sample distance", length(step, unit) + " (" + text(d.step_voxels) + " voxel)", all },
-    { "interpolation", d.interpolation, all },
-    { "blend mode", scene.options.modes.blend_mode, all },
-    { "shading", d.shading ? "on" : "off", all },
-    { "camera", d.camera.parallel ? "parallel" : "perspective", all },
-    { "resolution", std::to_string(d.width) + " x " + std::to_string(d.height), all },
-    { "jitter", "off", "vtk-gpu" },
-    { "automatic sample distance", "off", all },
-    { "what is timed",
-      "the ray casting alone, tables and uploads of the warm-up left out; vtk-gpu: the whole frame",
-      all },
-    { "threads",
-      scene.options.threads ? std::to_string(scene.options.threads) : "all processors",
-      "raymarch, vtk-fixed-point" },
-  };
-  return d;
-}
-
 /// The mappers that are to be drawn; those that need a display and have none are skipped.
 std::vector<MapperName> wanted_mappers(const Options& options)
 {
@@ -211,6 +137,8 @@ void write_outputs(const OutputFolder& folder, const Comparison& comparison,
     const std::vector<unsigned char> png = encode_png(bitmap);
     write_atomically(folder.file(name), png.data(), png.size());
   };
+  const auto shown = [&](const Picture& picture)
+  { return to_bitmap(picture, comparison.display_curve, comparison.exposure); };
   std::vector<ImageErrors> errors;
   for (const ComparisonEntry& entry : comparison.entries)
   {
@@ -227,12 +155,12 @@ void write_outputs(const OutputFolder& folder, const Comparison& comparison,
     }
     write_exr(films.at(entry.mapper), folder.file(entry.mapper + ".exr"),
       { { "brume:input", comparison.scene.input }, { "brume:mapper", entry.mapper } });
-    write_bitmap(entry.mapper + ".png", to_bitmap(entry.picture));
+    write_bitmap(entry.mapper + ".png", shown(entry.picture));
     write_bitmap("difference-" + entry.mapper + ".png",
       with_legend(difference_picture(entry.picture, comparison.truth.picture,
         DifferenceKind::Absolute, shared_gain(errors))));
   }
-  write_bitmap("truth.png", to_bitmap(comparison.truth.picture));
+  write_bitmap("truth.png", shown(comparison.truth.picture));
   write_bitmap("panel.png", panel(comparison));
   write_atomically(folder.file("compare.json"), to_json(comparison));
   write_atomically(folder.file("report.html"), to_html(comparison));
@@ -242,7 +170,6 @@ void run(const Options& options)
 {
   const std::vector<MapperName> wanted = wanted_mappers(options);
   check(options.scene);
-  refuse_beyond_stock_mappers(options.scene, "leave it out, or use brume render");
   if (!options.scene.preset.empty())
   {
     find_preset(options.scene.preset);
@@ -256,6 +183,9 @@ void run(const Options& options)
   comparison.command_line = options.command_line;
   comparison.scene = describe(scene, step);
   comparison.date = utc_now();
+  comparison.exposure = options.display.exposure;
+  comparison.display_curve =
+    options.display.curve == "srgb" ? DisplayCurve::Srgb : DisplayCurve::Identity;
   ComparisonMeasure measure(scene, step, options.repetitions);
   comparison.truth = measure.measure_truth();
 
@@ -266,11 +196,8 @@ void run(const Options& options)
     std::string cannot = not_drawn_by(options.scene.modes, mapper.kind);
     if (cannot.empty() && mapper.kind != MapperKind::RayMarch)
     {
-      if (scene.input.sparse)
-      {
-        cannot = "it would need the volume dense";
-      }
-      else if (!display)
+      cannot = not_drawn_by_stock(options.scene, scene.input);
+      if (cannot.empty() && !display)
       {
         display.emplace();
       }
@@ -322,6 +249,7 @@ void add_compare(CLI::App& program)
   CLI::App* command = program.add_subcommand("compare",
     "Draw a volume with several mappers, time each, and measure each against the truth");
   add_scene_options(*command, options->scene, "off");
+  add_display_options(*command, options->display);
   command
     ->add_option("--output,-o", options->output,
       "Folder for panel.png, a picture and a difference of each mapper, compare.json, report.html")

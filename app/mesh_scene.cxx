@@ -5,6 +5,7 @@
 #include "private_display.h"
 #include "volume_scene.h"
 
+#include "Transport/film.h"
 #include "Transport/scene.h"
 
 #include "vtkBrumeSky.h"
@@ -107,18 +108,6 @@ bool has_colours(vtkPolyData* mesh)
       scalars->GetNumberOfComponents() >= 3;
   };
   return colours(mesh->GetPointData()) || colours(mesh->GetCellData());
-}
-
-vtkSmartPointer<vtkActor> actor_of(vtkPolyData* mesh)
-{
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(mesh);
-  mapper->SetScalarVisibility(has_colours(mesh));
-  auto actor = vtkSmartPointer<vtkActor>::New();
-  actor->SetMapper(mapper);
-  vtkProperty* property = actor->GetProperty();
-  property->SetColor(grey, grey, grey);
-  return actor;
 }
 
 /// A directional light as VTK shades by it: `colour` is what a white surface that faces it sends.
@@ -299,6 +288,18 @@ vtkSmartPointer<vtkPolyData> open_mesh(const std::string& path)
   return with_normals(mesh);
 }
 
+vtkSmartPointer<vtkActor> actor_of(vtkPolyData* mesh)
+{
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(mesh);
+  mapper->SetScalarVisibility(has_colours(mesh));
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  vtkProperty* property = actor->GetProperty();
+  property->SetColor(grey, grey, grey);
+  return actor;
+}
+
 SurfacePicture draw_meshes(const VolumeScene& scene)
 {
   if (scene.meshes.empty())
@@ -341,6 +342,24 @@ SurfacePicture draw_meshes(const VolumeScene& scene)
   std::vector<float> depths(rgb.size() / 3);
   window->GetZbufferData(0, 0, fine * scene.width() - 1, fine * scene.height() - 1, depths.data());
   return averaged(scene, fine, rgb, depths);
+}
+
+std::vector<float> over_scene(
+  const Film& film, const VolumeScene& scene, const SurfacePicture& surfaces)
+{
+  if (surfaces.rgb.empty())
+  {
+    return over_background(film, scene.options.background.data());
+  }
+  std::vector<float> rgb = surfaces.rgb;
+  for (std::size_t i = 0; i < film.size(); ++i)
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      rgb[3 * i + c] = film.radiance[c][i] + film.transmittance[c][i] * rgb[3 * i + c];
+    }
+  }
+  return rgb;
 }
 
 }

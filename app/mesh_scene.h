@@ -6,7 +6,13 @@
 #include <string>
 #include <vector>
 
+class vtkActor;
 class vtkPolyData;
+
+namespace brume
+{
+struct Film;
+}
 
 namespace brume::app
 {
@@ -28,5 +34,12 @@ struct SurfacePicture
 /// camera's clipping range must be fitted to them and to the volume (set_up). Needs a display (private_display.h):
 /// throws Failure where there is none. Volumes throw no shadows on surfaces, nor they on volumes.
 SurfacePicture draw_meshes(const VolumeScene& scene);
+
+/// A surface as draw_meshes() shows it, for another renderer: grey or in its own colours, diffuse.
+vtkSmartPointer<vtkActor> actor_of(vtkPolyData* mesh);
+
+/// The film over the surfaces, or over the scene's background where it has none: R, G, B a pixel.
+std::vector<float> over_scene(
+  const Film& film, const VolumeScene& scene, const SurfacePicture& surfaces);
 
 }

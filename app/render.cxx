@@ -1,5 +1,6 @@
 // brume render: one picture of one volume.
 #include "command.h"
+#include "display_options.h"
 #include "interruption.h"
 #include "machine.h"
 #include "mapper_names.h"
@@ -17,6 +18,7 @@
 #include "film_io.h"
 #include "Transport/film.h"
 
+#include "vtkBrumeFog.h"
 #include "vtkBrumeRayMarchMapper.h"
 #include "vtkBrumeSparseVolume.h"
 
@@ -33,9 +35,11 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <thread>
 
 namespace brume::app
 {
@@ -49,14 +53,7 @@ struct Options
   std::string output;
   std::string mapper = "raymarch";
   std::string stats;
-  double exposure = 0.0; ///< stops
-  std::string display_curve = "none";
-
-  Display display() const
-  {
-    return { this->exposure,
-      this->display_curve == "srgb" ? Display::Curve::SRGB : Display::Curve::None };
-  }
+  DisplayOptions display;
 };
 
 bool ends_with_exr(const std::string& path)
@@ -67,7 +64,7 @@ bool ends_with_exr(const std::string& path)
 struct Drawn
 {
   Film film;
-  std::vector<float> behind; ///< the surfaces behind the volume, R, G, B a pixel; empty without
+  SurfacePicture surfaces; ///< behind the volume
   std::string statistics; ///< JSON
 };
 
@@ -75,8 +72,9 @@ Drawn draw_ray_march(const VolumeScene& scene)
 {
   vtkNew<vtkBrumeRayMarchMapper> mapper;
   set_up(scene, mapper);
-  const SurfacePicture surfaces = draw_meshes(scene);
-  mapper->SetSurfaceDepth(surfaces.depth);
+  Drawn drawn;
+  drawn.surfaces = draw_meshes(scene);
+  mapper->SetSurfaceDepth(drawn.surfaces.depth);
 
   struct Watch
   {
@@ -103,9 +101,7 @@ Drawn draw_ray_march(const VolumeScene& scene)
     });
   mapper->AddObserver(vtkCommand::ProgressEvent, observer);
   mapper->AddObserver(vtkCommand::ErrorEvent, observer);
-  Drawn drawn;
   drawn.film = Film(scene.width(), scene.height());
-  drawn.behind = surfaces.rgb;
   const bool completed =
     mapper->RenderFilm(scene.volume, scene.camera, scene.lights, drawn.film);
   watch.bar.clear();
@@ -118,23 +114,50 @@ Drawn draw_ray_march(const VolumeScene& scene)
   return drawn;
 }
 
-/// The film over what the surfaces sent, as over_background() of one colour.
-std::vector<float> over_picture(const Film& film, std::vector<float> rgb)
-{
-  for (std::size_t i = 0; i < film.size(); ++i)
-  {
-    for (int c = 0; c < 3; ++c)
-    {
-      rgb[3 * i + c] = film.radiance[c][i] + film.transmittance[c][i] * rgb[3 * i + c];
-    }
-  }
-  return rgb;
-}
-
 /// An effect as the statistics name it. How far VTK's mappers are off is not known beforehand.
 nlohmann::json effect(const char* name, bool on, const char* reason)
 {
   return { { "name", name }, { "on", on }, { "reason", reason }, { "error_bound", nullptr } };
+}
+
+/// Surfaces in fog, without a volume.
+Drawn draw_fog(const VolumeScene& scene)
+{
+  fit_clipping_range(scene);
+  Drawn drawn;
+  drawn.surfaces = draw_meshes(scene);
+  drawn.film = Film(scene.width(), scene.height());
+  scene.fog->SetNumberOfThreads(scene.options.threads);
+  std::string error;
+  vtkNew<vtkCallbackCommand> ear;
+  ear->SetClientData(&error);
+  ear->SetCallback([](vtkObject*, unsigned long, void* data, void* text)
+    { *static_cast<std::string*>(data) = static_cast<const char*>(text); });
+  scene.fog->AddObserver(vtkCommand::ErrorEvent, ear);
+  const auto start = std::chrono::steady_clock::now();
+  if (!scene.fog->RenderFilm(scene.camera, scene.lights, drawn.film, drawn.surfaces.depth))
+  {
+    throw Failure("--fog-extinction", "the fog cannot be drawn", words_of_vtk(error));
+  }
+  nlohmann::json statistics;
+  statistics["mapper"] = "fog";
+  statistics["seconds"] =
+    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  statistics["seconds_prepare"] = 0.0;
+  statistics["samples"] = 0; // the fog comes in closed form
+  statistics["rays"] = drawn.film.size();
+  statistics["threads"] = scene.options.threads > 0
+    ? scene.options.threads
+    : static_cast<int>(std::thread::hardware_concurrency());
+  statistics["simd"] = "none";
+  nlohmann::json fog = effect("fog", true, "the scene has fog; no volume was named");
+  fog["error_bound"] = 0.0;
+  statistics["effects"] = { fog };
+  statistics["non_finite_voxels"] = 0;
+  statistics["radiometric"] = true;
+  statistics["peak_memory_bytes"] = peak_memory_bytes();
+  drawn.statistics = statistics.dump(2);
+  return drawn;
 }
 
 Drawn draw_stock(const VolumeScene& scene, const MapperName& mapper)
@@ -199,9 +222,9 @@ void run(const Options& options)
   {
     throw Failure(error.what(), BadCall);
   }
-  if (ends_with_exr(options.output) && (options.exposure != 0.0 || options.display_curve != "none"))
+  if (ends_with_exr(options.output) && options.display.changes_light())
   {
-    throw Failure(options.exposure != 0.0 ? "--exposure" : "--display-curve",
+    throw Failure(options.display.exposure != 0.0 ? "--exposure" : "--display-curve",
       "an EXR holds linear light as it is", "leave it out, or write a .png", BadCall);
   }
   const MapperName& mapper = find_mapper(options.mapper, "--mapper");
@@ -215,6 +238,12 @@ void run(const Options& options)
   {
     refuse_beyond_stock_mappers(options.scene, "take --mapper raymarch, or leave it out");
   }
+  if (options.scene.input.empty() &&
+    (options.scene.meshes.empty() || !options.scene.medium.has_fog()))
+  {
+    throw Failure("INPUT", "it is missing",
+      "name a volume; only surfaces in fog (--mesh, --fog-extinction) need none", BadCall);
+  }
   if (!options.scene.preset.empty())
   {
     find_preset(options.scene.preset);
@@ -223,13 +252,14 @@ void run(const Options& options)
   check_output(options.stats, options.scene.input, { options.output });
   const InterruptionWatch watch;
   const VolumeScene scene = make_volume_scene(options.scene);
-  const Drawn drawn =
-    mapper.kind == MapperKind::RayMarch ? draw_ray_march(scene) : draw_stock(scene, mapper);
+  const Drawn drawn = !scene.volume        ? draw_fog(scene)
+    : mapper.kind == MapperKind::RayMarch ? draw_ray_march(scene)
+                                          : draw_stock(scene, mapper);
   InterruptionWatch::check(options.scene.input.c_str());
 
   nlohmann::json statistics = nlohmann::json::parse(drawn.statistics);
-  statistics["exposure"] = options.exposure;
-  statistics["display_curve"] = options.display_curve;
+  statistics["exposure"] = options.display.exposure;
+  statistics["display_curve"] = options.display.curve;
   if (ends_with_exr(options.output))
   {
     write_exr(drawn.film, options.output,
@@ -238,10 +268,8 @@ void run(const Options& options)
   }
   else
   {
-    const std::vector<float> picture = drawn.behind.empty()
-      ? over_background(drawn.film, scene.options.background.data())
-      : over_picture(drawn.film, drawn.behind);
-    write_png(picture, drawn.film.width, drawn.film.height, options.output, options.display());
+    write_png(over_scene(drawn.film, scene, drawn.surfaces), drawn.film.width, drawn.film.height,
+      options.output, options.display.display());
   }
   if (!options.stats.empty())
   {
@@ -278,6 +306,7 @@ void add_render(CLI::App& program)
   CLI::App* command = program.add_subcommand(
     "render", "Draw one picture of a volume; needs no window and no display");
   add_scene_options(*command, options->scene, "preset");
+  command->get_option("INPUT")->required(false);
   command
     ->add_option("--output,-o", options->output,
       "The picture: .png as a screen shows it, or .exr with linear radiance, transmittance and "
@@ -288,16 +317,7 @@ void add_render(CLI::App& program)
     ->add_option("--mapper", options->mapper,
       "What draws it: " + list_mapper_names() + " [raymarch]")
     ->type_name("M");
-  command
-    ->add_option("--exposure", options->exposure,
-      "Brightens a .png: its values are multiplied by 2^STOPS, -64 to 64 [0]")
-    ->check(number("a number of stops from -64 to 64", [](double v) { return std::abs(v) <= 64.0; }))
-    ->type_name("STOPS");
-  command
-    ->add_option("--display-curve", options->display_curve,
-      "How a .png shows linear light: none (as VTK's frames do) or srgb (as eyes see it) [none]")
-    ->check(one_of({ "none", "srgb" }))
-    ->type_name("CURVE");
+  add_display_options(*command, options->display);
   command->add_option("--stats", options->stats, "Write what it took, as JSON, to FILE")
     ->type_name("FILE");
   command->get_option("--sample-distance")

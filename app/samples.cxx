@@ -4,6 +4,7 @@
 #include "interruption.h"
 
 #include "vtkBrumeCloudSource.h"
+#include "vtkBrumeFogSource.h"
 #include "vtkBrumePhantomSource.h"
 #include "vtkBrumeSmokeSource.h"
 
@@ -64,6 +65,16 @@ Input cloud(const std::function<void(double)>& progress)
   return input;
 }
 
+Input fog(const std::function<void(double)>& progress)
+{
+  vtkNew<vtkBrumeFogSource> source;
+  source->SetKindToValley();
+  Input input;
+  input.image = run(source, progress);
+  input.length_unit = "m";
+  return input;
+}
+
 Input smoke(const std::function<void(double)>& progress)
 {
   vtkNew<vtkBrumeSmokeSource> source;
@@ -80,6 +91,7 @@ const std::vector<Sample>& samples()
   static const std::vector<Sample> table{
     { "head-ct", "a head as a CT scanner sees it, in Hounsfield units", head_ct },
     { "cloud", "a cumulus of 2 km, density from 0 to 1", cloud },
+    { "fog", "fog in a valley of 4 km, density from 0 to 1", fog },
     { "smoke", "a plume of hot smoke of 8 m, density from 0 to 1 and temperature", smoke },
   };
   return table;

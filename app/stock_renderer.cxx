@@ -2,7 +2,9 @@
 
 #include "command.h"
 #include "interruption.h"
+#include "mesh_scene.h"
 
+#include "vtkActor.h"
 #include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
 #include "vtkFixedPointRayCastImage.h"
@@ -14,6 +16,7 @@
 #include "vtkNew.h"
 #include "vtkOpenGLGPUVolumeRayCastMapper.h"
 #include "vtkOpenGLRenderWindow.h"
+#include "vtkPolyData.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkUnsignedCharArray.h"
@@ -115,7 +118,7 @@ StockRenderer::StockRenderer(const VolumeScene& scene, MapperKind kind, double s
     in.FixedPoint->SetSampleDistance(static_cast<float>(step));
     in.FixedPoint->SetInteractiveSampleDistance(static_cast<float>(step));
     in.FixedPoint->SetImageSampleDistance(1.0f);
-    in.FixedPoint->IntermixIntersectingGeometryOff();
+    in.FixedPoint->SetIntermixIntersectingGeometry(!scene.meshes.empty());
     if (scene.options.threads > 0)
     {
       in.FixedPoint->SetNumberOfThreads(scene.options.threads);
@@ -150,6 +153,10 @@ StockRenderer::StockRenderer(const VolumeScene& scene, MapperKind kind, double s
   in.Renderer->SetActiveCamera(scene.camera);
   in.Renderer->AutomaticLightCreationOff();
   in.Renderer->SetLightCollection(scene.lights);
+  for (vtkPolyData* mesh : scene.meshes)
+  {
+    in.Renderer->AddActor(actor_of(mesh));
+  }
   in.Renderer->AddVolume(in.Volume);
 }
 

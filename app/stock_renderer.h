@@ -14,7 +14,8 @@ class vtkVolumeMapper;
 namespace brume::app
 {
 
-/// Draws a scene with one of VTK's stock mappers, step and all settings fixed, no jitter. Needs a
+/// Draws a scene (of what VTK knows: stock_scene.h) and its surfaces with one of VTK's stock mappers,
+/// step and all settings fixed, no jitter. Needs a
 /// display (private_display.h). The picture is read where it is most exact: from the ray-cast image
 /// of 15 bits for the CPU mapper, from the frame of 8 bits for the GPU mapper.
 class StockRenderer
@@ -30,9 +31,10 @@ public:
   /// frame is still being drawn when it returns.
   double render();
 
-  /// The last render over the scene's background.
+  /// The last render over the scene's background; of the CPU mapper the volume alone.
   Picture picture();
-  /// The last render as light: the GPU mapper's is drawn once more over black.
+  /// The last render as light: the GPU mapper's is drawn once more over black, with the surfaces; the
+  /// CPU mapper's holds the volume as far as the surfaces let see it.
   Film film();
   /// The frame as the window shows it, 8 bits.
   Picture frame();

@@ -55,7 +55,7 @@ double largest(const Triple& v)
 
 /// The corners, in the world, of each brick of the volume that can be seen with its transfer
 /// functions; of the whole volume where none can.
-std::vector<glm::dvec3> visible_corners(VolumeScene& scene)
+std::vector<glm::dvec3> visible_corners_of_volume(VolumeScene& scene)
 {
   vtkNew<vtkBrumeRayMarchMapper> mapper;
   mapper->SetInputDataObject(scene.input.data());
@@ -123,6 +123,17 @@ std::vector<glm::dvec3> visible_corners(VolumeScene& scene)
   if (corners.empty())
   {
     add_box(begin, last);
+  }
+  return corners;
+}
+
+/// The same, and those of the meshes' boxes.
+std::vector<glm::dvec3> visible_corners(VolumeScene& scene)
+{
+  std::vector<glm::dvec3> corners;
+  if (scene.volume)
+  {
+    corners = visible_corners_of_volume(scene);
   }
   for (vtkPolyData* mesh : scene.meshes)
   {
@@ -292,6 +303,13 @@ VolumeScene make_volume_scene(const SceneOptions& options)
     scene.meshes.push_back(open_mesh(mesh));
   }
   scene.sky = make_sky(options.medium);
+  if (options.input.empty())
+  {
+    scene.lights = make_lights(options.medium);
+    scene.fog = make_fog(options.medium, scene.sky);
+    scene.camera = make_camera(scene);
+    return scene;
+  }
   scene.input = open_input_with_bar(options.input, options.choice, options.quiet);
   choose_array(scene.input, options.density_array, options.input);
   if (!scene.preset && !density)
@@ -368,12 +386,21 @@ void set_up(const VolumeScene& scene, vtkBrumeRayMarchMapper* mapper)
     mapper->SetSampleDistance(*options.sample_distance);
   }
   scene.volume->SetMapper(mapper);
+  fit_clipping_range(scene);
+}
+
+void fit_clipping_range(const VolumeScene& scene)
+{
   if (scene.meshes.empty())
   {
     vtkBrumeVolumeMapper::ResetClippingRange(scene.volume, scene.camera);
     return;
   }
-  vtkBoundingBox box(scene.volume->GetBounds());
+  vtkBoundingBox box;
+  if (scene.volume)
+  {
+    box.AddBounds(scene.volume->GetBounds());
+  }
   for (vtkPolyData* mesh : scene.meshes)
   {
     box.AddBounds(mesh->GetBounds());

@@ -30,7 +30,8 @@ struct VolumeScene
   Input input;
   const Preset* preset = nullptr; ///< null for a density (--extinction)
   std::string preset_reason; ///< why this preset; empty when the user named it
-  vtkSmartPointer<vtkVolume> volume; ///< with its property, without a mapper
+  /// With its property, without a mapper; null where surfaces stand in fog alone (no INPUT).
+  vtkSmartPointer<vtkVolume> volume;
   vtkSmartPointer<vtkImageData> mask; ///< 0 or 1 for each voxel; null for none
   Cropping cropping;                  ///< in voxels
   vtkSmartPointer<vtkCamera> camera; ///< clipping range fits the volume
@@ -51,9 +52,13 @@ struct VolumeScene
 /// - the camera: all that the transfer functions let be seen, for patients from the front, a little from their left and above,
 ///   with the head up; otherwise from the front (−y), a little from the right and above, with z up;
 /// - the background: black, or white behind a density that only absorbs.
+/// Without an input the scene is its meshes and its fog.
 /// Remarks (what the reader settled, which preset and why) go to standard error unless --quiet.
 /// Throws Failure: BadCall for an unknown preset or sample, Failed for an input that cannot be read.
 VolumeScene make_volume_scene(const SceneOptions& options);
+
+/// Fits the camera's clipping range to the volume and the meshes.
+void fit_clipping_range(const VolumeScene& scene);
 
 /// Gives the mapper all of the scene, and the volume the mapper; the camera's clipping range is fitted
 /// to the volume and the meshes.

@@ -3,6 +3,9 @@
 # counts it as skipped.
 find_package(GTest REQUIRED)
 
+# What runs under sanitizers: the programs of the labels unit and analytic.
+add_custom_target(sanitized-tests)
+
 set(BRUME_TEST_OUTPUT "${PROJECT_BINARY_DIR}/tests/output")
 add_library(BrumeTestMain STATIC "${PROJECT_SOURCE_DIR}/tests/main.cxx")
 target_link_libraries(BrumeTestMain PUBLIC GTest::gtest)
@@ -39,6 +42,9 @@ function (brume_add_test name)
   set(launcher)
   if (arg_DISPLAY)
     set(launcher "${PROJECT_SOURCE_DIR}/scripts/with-display")
+  endif ()
+  if (arg_LABEL MATCHES "^(unit|analytic)$")
+    add_dependencies(sanitized-tests ${name})
   endif ()
   add_test(NAME ${name} COMMAND ${launcher} $<TARGET_FILE:${name}> ${arg_ARGUMENTS})
   _brume_set_test(${name} "${arg_LABEL}")

@@ -1,6 +1,7 @@
 // Clouds at one place: the kernels with packets of one lane.
 #define BRUME_ONE_LANE
 #include "data-generators/heap_cloud-inl.h"
+#include "data-generators/layer_cloud-inl.h"
 
 namespace brume
 {
@@ -9,6 +10,17 @@ float heap_cloud_value(const HeapCloud& cloud, const glm::dvec3& place, double t
 {
   return one_lane::heap_cloud(
     cloud, { place.x, place.y, place.z }, one_lane::drift_of(cloud.wind, time));
+}
+
+float layer_cloud_value(const LayerCloud& cloud, const glm::dvec3& place, double time)
+{
+  return one_lane::layer_cloud(
+    cloud, { place.x, place.y, place.z }, one_lane::drift_of(cloud.options.wind, time));
+}
+
+float layer_cover(const LayerCloud& cloud, double x, double y)
+{
+  return one_lane::cover_noise(cloud, x, y);
 }
 
 FieldRange HeapCloud::range_in(const Box& box) const

@@ -1,10 +1,11 @@
 #include "data-generators/cumulus.h"
 
 #include "data-generators/heap_cloud.h"
+#include "data-generators/piles.h"
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -22,52 +23,10 @@ constexpr double base_height = 0.08;
 constexpr double top_height = 0.52;
 constexpr double largest_warp = 0.06;
 
-struct Sphere
+/// The puffs of a cloud in a box of width 1.
+std::vector<Puff> pile_cumulus(std::uint32_t seed)
 {
-  glm::dvec3 centre;
-  double radius;
-};
-
-/// A direction at random in the unit ball's shell, sides and top rather than below. By rejection:
-/// no sine, no cosine.
-glm::dvec3 upward_direction(RandomSequence& random)
-{
-  for (;;)
-  {
-    const glm::dvec3 d(
-      random.between(-1.0, 1.0), random.between(-1.0, 1.0), random.between(-0.35, 1.0));
-    const double square = d.x * d.x + d.y * d.y + d.z * d.z;
-    if (square > 0.04 && square <= 1.0)
-    {
-      return d / std::sqrt(square);
-    }
-  }
-}
-
-void add_buds(std::vector<Sphere>& spheres,
-  const Sphere& parent,
-  int generation,
-  RandomSequence& random)
-{
-  spheres.push_back(parent);
-  if (generation == 0)
-  {
-    return;
-  }
-  const int count = generation == 2 ? 7 : 6;
-  for (int b = 0; b < count; ++b)
-  {
-    const glm::dvec3 direction = upward_direction(random);
-    const Sphere bud{ parent.centre + direction * (parent.radius * random.between(0.62, 0.8)),
-      parent.radius * random.between(0.42, 0.58) };
-    add_buds(spheres, bud, generation - 1, random);
-  }
-}
-
-/// The spheres of a cloud in a box of width 1.
-std::vector<Sphere> pile_spheres(std::uint32_t seed)
-{
-  std::vector<Sphere> spheres;
+  std::vector<Puff> puffs;
   RandomSequence random(substream(seed, 105));
   // The first tower stands near the middle and is the highest. The others lie around it at even
   // angles, on an ellipse longer in x, every other one nearer to it; the farther the lower.
@@ -97,7 +56,7 @@ std::vector<Sphere> pile_spheres(std::uint32_t seed)
     double size = radius;
     for (double z = base_height + 0.1 * radius; z <= base_height + top; z += 0.8 * size)
     {
-      add_buds(spheres, { { x, y, z }, size }, 2, random);
+      add_buds(puffs, { { x, y, z }, glm::dvec3(size) }, 2, random);
       size *= random.between(0.84, 0.94);
       x += size * random.between(-0.25, 0.25);
       y += size * random.between(-0.25, 0.25);
@@ -105,14 +64,15 @@ std::vector<Sphere> pile_spheres(std::uint32_t seed)
   }
   // What would reach the border is drawn in, so that the border's fade has little to cut.
   const double room = 0.5 - HeapCloud::border_fade;
-  for (Sphere& s : spheres)
+  for (Puff& p : puffs)
   {
-    s.radius = std::min(s.radius, room);
-    s.centre.x = std::clamp(s.centre.x, s.radius - room, room - s.radius);
-    s.centre.y = std::clamp(s.centre.y, s.radius - room, room - s.radius);
-    s.centre.z = std::min(s.centre.z, box_height - HeapCloud::border_fade - s.radius);
+    const double radius = std::min(p.radii.x, room);
+    p.radii = glm::dvec3(radius);
+    p.centre.x = std::clamp(p.centre.x, radius - room, room - radius);
+    p.centre.y = std::clamp(p.centre.y, radius - room, room - radius);
+    p.centre.z = std::min(p.centre.z, box_height - HeapCloud::border_fade - radius);
   }
-  return spheres;
+  return puffs;
 }
 
 }
@@ -145,14 +105,14 @@ Cumulus::Cumulus(const CumulusOptions& options)
   const double base = options.base > 0.0 ? options.base / options.width : base_height;
   const double top =
     options.top > 0.0 ? options.top / options.width : base + top_height - base_height;
-  require(base >= HeapCloud::below_base && top > base && top < 20.0,
+  require(base >= 0.03 && top > base && top < 20.0,
     "the base must be at 0.03 width or higher, and the top above it, below 20 widths");
   const double stretch = (top - base) / (top_height - base_height);
-  std::vector<Puff> puffs;
-  for (const Sphere& s : pile_spheres(options.seed))
+  std::vector<Puff> puffs = pile_cumulus(options.seed);
+  for (Puff& p : puffs)
   {
-    puffs.push_back({ { s.centre.x, s.centre.y, base + (s.centre.z - base_height) * stretch },
-      { s.radius, s.radius, s.radius * stretch } });
+    p.centre.z = base + (p.centre.z - base_height) * stretch;
+    p.radii.z *= stretch;
   }
   auto cloud = std::make_unique<HeapCloud>();
   cloud->seed = options.seed;

@@ -3,10 +3,8 @@
 #include "data-generators/head_anatomy.h"
 #include "data-generators/hounsfield.h"
 #include "data-generators/painted_volume.h"
-#include "data-generators/random.h"
 #include "data-generators/signed_distance.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -25,15 +23,17 @@ HeadCT::HeadCT(const HeadCTOptions& options)
   {
     throw std::invalid_argument("head CT: the edge must be above 0");
   }
-  m_painting = std::make_unique<PaintedVolume>(bounds(), hounsfield::air, options.edge);
-  head::paint_soft_tissue(*m_painting);
-  head::paint_skull(*m_painting, options.seed);
-  head::paint_eyes(*m_painting);
-  head::paint_brain(*m_painting, options.seed, options.edge);
-  m_painting->paint([](const glm::dvec3& p)
+  const auto painting =
+    std::make_shared<PaintedVolume>(head_ct_bounds(), hounsfield::air, options.edge);
+  head::paint_soft_tissue(*painting);
+  head::paint_skull(*painting, options.seed);
+  head::paint_eyes(*painting);
+  head::paint_brain(*painting, options.seed, options.edge);
+  painting->paint([](const glm::dvec3& p)
     { return sphere_distance(p, glm::dvec3(head_marker[0], head_marker[1], head_marker[2]), 4.0); },
     hounsfield::marker);
-  m_painting->finish();
+  painting->finish();
+  m_painting = painting;
 }
 
 HeadCT::~HeadCT() = default;
@@ -56,23 +56,7 @@ bool sample_head_ct(const HeadCT& head,
   std::int16_t* values,
   const Progress& progress)
 {
-  const std::uint32_t key = substream(noise_seed, 50);
-  return for_each_row(
-    extent,
-    [&](int j, int k, std::size_t offset)
-    {
-      for (int i = extent.first.x; i <= extent.last.x; ++i)
-      {
-        double value = head.painting().value(grid.place(i, j, k));
-        if (noise > 0.0)
-        {
-          value += noise * unit_normal(hash_lattice(i, j, k, key));
-        }
-        value = std::clamp(value, hounsfield::lowest, hounsfield::highest);
-        values[offset++] = static_cast<std::int16_t>(std::floor(value + 0.5));
-      }
-    },
-    progress);
+  return sample_scan(head.painting(), noise, noise_seed, grid, extent, values, progress);
 }
 
 }

@@ -2,15 +2,13 @@
 #pragma once
 
 #include "data-generators/field.h"
-#include "data-generators/sampling.h"
+#include "data-generators/scan.h"
 
 #include <cstdint>
 #include <memory>
 
 namespace brume
 {
-
-class PaintedVolume;
 
 /// The settings of a head phantom.
 struct HeadCTOptions
@@ -29,9 +27,9 @@ struct HeadCTOptions
 /// Coordinates are RAS+: x grows from the patient's left to the patient's right, y from back to
 /// front, z from foot to crown. (DICOM's are LPS: x and y the other way.) The origin is the middle
 /// of the box, which is 192 x 240 x 256 mm; it
-/// lies at the skull's base, 2 mm below and 82 mm behind the pupils. The head is symmetric in x, but
-/// for what tells left from right: a ceramic bead of 4 mm radius (2800 HU) on the patient's left
-/// temple, at head_marker, and the veins.
+/// lies at the skull's base, 2 mm below and 82 mm behind the pupils. The head is symmetric in x,
+/// but for what tells left from right: a ceramic bead of 4 mm radius (2800 HU) on the patient's
+/// left temple, at head_marker, and the veins.
 ///
 /// What there is: skin, fat under it, muscle; the skull with outer table, diploe and inner table,
 /// sutures, eye sockets, cheek bones, nose, upper and lower jaw; air in nose, throat, frontal,
@@ -50,9 +48,10 @@ public:
   float value(const glm::dvec3& place, double time) const override;
 
   const PaintedVolume& painting() const { return *m_painting; }
+  std::shared_ptr<const PaintedVolume> share_painting() const { return m_painting; }
 
 private:
-  std::unique_ptr<PaintedVolume> m_painting;
+  std::shared_ptr<const PaintedVolume> m_painting;
 };
 
 /// The box of the phantom, millimetres: what HeadCT::bounds() gives, without making one.
@@ -61,11 +60,7 @@ Box head_ct_bounds();
 /// Centre of the bead on the patient's left temple, RAS+ millimetres.
 constexpr double head_marker[3] = { -75.0, 22.0, 24.0 };
 
-/// Fills a block of a grid with the head, rounded to whole Hounsfield units, with a scanner's
-/// noise: independent Gaussian noise in each voxel, of standard deviation `noise` HU (0 or less:
-/// none), seeded, and the same whatever the block and the threads. Values are held to [-1024,
-/// 3071], as scanners store them. `values` has extent.voxels() elements, x fastest. False if
-/// `progress` asked to stop.
+/// sample_scan() of a head.
 bool sample_head_ct(const HeadCT& head,
   double noise,
   std::uint32_t noise_seed,

@@ -95,7 +95,7 @@ BRUME_LANES_INLINE Real heap_cloud(const HeapCloud& c, const Place& p, const glm
   const Real sx = half - magnitude(x), sy = half - magnitude(y);
   const Real sz = least(z, real(static_cast<float>(c.height)) - z);
   const Real border = real(static_cast<float>(HeapCloud::empty_border));
-  const float lowest = static_cast<float>(c.base - HeapCloud::below_base);
+  const float lowest = static_cast<float>(c.base - c.below_base);
   const Yes within = both(both(border < sx, border < sy), both(border < sz, real(lowest) < z));
   if (!any(within))
   {
@@ -129,18 +129,20 @@ BRUME_LANES_INLINE Real heap_cloud(const HeapCloud& c, const Place& p, const glm
     const Real ice = smooth(straight(z, static_cast<float>(c.ice), 12.0f));
     if (any(zero < ice))
     {
-      const Place fibres{ at.x * wide(0.12), at.y * wide(0.5), at.z * wide(0.7) };
+      const Place fibres{ at.x * wide(0.3), at.y * wide(0.75), at.z * wide(0.9) };
       const Real soft =
         half + half * sum_octaves<Octave::Perlin>(
                         fibres, substream(c.seed, 4), { c.octaves, 2.0, 0.5 }, NoisePeriod(0));
-      noise = lerp(noise, straight(soft, 0.25f, 2.0f), ice);
-      crispness = crispness * (real(1.0f) - real(0.75f) * ice);
+      noise = lerp(noise, straight(soft, 0.33f, 3.0f), ice);
+      crispness = crispness * (real(1.0f) - real(0.6f) * ice);
     }
   }
   const Real body =
     held(crispness * (h * (real(0.8f) * noise + real(static_cast<float>(c.offset))) -
                        real(static_cast<float>(HeapCloud::threshold))));
-  const Real base = smooth(held((z - real(lowest) - real(0.03f) * noise) * real(1.0f / 0.045f)));
+  const Real base =
+    smooth(held((z - real(lowest) - real(static_cast<float>(c.below_base)) * noise) *
+                real(static_cast<float>(1.0 / (1.5 * c.below_base)))));
   const Real inside = least(least(sx, sy), sz);
   const Real fade = smooth(straight(inside,
     static_cast<float>(HeapCloud::empty_border),

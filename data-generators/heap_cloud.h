@@ -25,13 +25,15 @@ struct HeapCloud
   double warp_size = 1.0;
   glm::dvec3 wind{ 0.0 };
 
+  /// How far below the base density may begin, in widths: how ragged the base is.
+  double below_base = 0.03;
+
   /// Height from which the cloud is ice, in widths: fibrous, softer, smoother. Above the box: none.
   double ice = 2.0;
 
   // Of the recipe (cumulus.h).
   static constexpr double empty_border = 0.02; ///< no density nearer to a face than this
   static constexpr double border_fade = 0.06;  ///< full density from here on
-  static constexpr double below_base = 0.03;   ///< no density lower than this under the base
   static constexpr double threshold = 0.25;
   /// The heap below which even the strongest noise leaves nothing.
   double needed() const { return threshold / (0.8 + offset); }

@@ -187,6 +187,14 @@ inline Bits to_bits(Real a)
   return static_cast<Bits>(static_cast<std::int32_t>(a));
 }
 
+/// The number whose IEEE bits these are.
+inline Real from_raw(Bits raw)
+{
+  Real x;
+  std::memcpy(&x, &raw, sizeof x);
+  return x;
+}
+
 inline Wide load_wide(const double* from)
 {
   return *from;
@@ -362,6 +370,11 @@ HWY_INLINE Bits to_bits(Real a)
   return hn::BitCast(BitsTag(), hn::ConvertTo(WholeTag(), a));
 }
 
+HWY_INLINE Real from_raw(Bits raw)
+{
+  return hn::BitCast(RealTag(), raw);
+}
+
 HWY_INLINE Wide load_wide(const double* from)
 {
   return { hn::LoadU(WideTag(), from), hn::LoadU(WideTag(), from + lane_count / 2) };
@@ -409,6 +422,24 @@ BRUME_LANES_INLINE Real straight(Real x, float from, float slope)
 BRUME_LANES_INLINE Real smooth(Real t)
 {
   return t * t * (real(3.0f) - real(2.0f) * t);
+}
+
+/// e^x for x in [-80, 0], within 3e-7 of it; lower x counts as -80, higher as 0. x = (n + f) ln 2
+/// with f in [0, 1), and the series of e^(f ln 2).
+BRUME_LANES_INLINE Real decay(Real x)
+{
+  const Real t = least(most(x, real(-80.0f)), real(0.0f)) * real(1.44269504f);
+  const Real whole = floor_of(t);
+  const Real f = (t - whole) * real(0.693147181f);
+  Real sum = real(1.0f / 5040.0f);
+  sum = sum * f + real(1.0f / 720.0f);
+  sum = sum * f + real(1.0f / 120.0f);
+  sum = sum * f + real(1.0f / 24.0f);
+  sum = sum * f + real(1.0f / 6.0f);
+  sum = sum * f + real(0.5f);
+  sum = sum * f + real(1.0f);
+  sum = sum * f + real(1.0f);
+  return sum * from_raw(shift_left<23>(to_bits(whole + real(127.0f))));
 }
 
 /// Calls `kernel(place, box)`, which gives a Real, for all places of a block, a packet at a time,

@@ -50,11 +50,11 @@ fewer_lines() {
   done
 }
 
-# build_tree FOLDER [CMAKE OPTION...]: configures FOLDER (Release, Ninja) and builds it. What CMake
-# says is kept in FOLDER/configure.log and shown when it fails.
+# build_tree FOLDER TARGET [CMAKE OPTION...]: configures FOLDER (Release, Ninja) and builds the target.
+# What CMake says is kept in FOLDER/configure.log and shown when it fails.
 build_tree() {
-  local folder=$1 jobs
-  shift
+  local folder=$1 target=$2 jobs
+  shift 2
   mkdir -p "$folder"
   say "configuring ${folder#"$root"/}"
   if ! cmake -S "$root" -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release "$@" \
@@ -65,8 +65,8 @@ build_tree() {
   jobs=$(build_jobs)
   say "building ${folder#"$root"/} with $jobs jobs"
   if [ -t 2 ]; then
-    ninja -C "$folder" -j "$jobs" >&2
+    ninja -C "$folder" -j "$jobs" "$target" >&2
   else
-    ninja -C "$folder" -j "$jobs" 2>&1 | fewer_lines >&2
+    ninja -C "$folder" -j "$jobs" "$target" 2>&1 | fewer_lines >&2
   fi || give_up "the build in ${folder#"$root"/} failed: the compiler's messages stand above"
 }

@@ -3,6 +3,16 @@
 namespace brume
 {
 
+std::string left_out_words(const ComparisonEntry& entry)
+{
+  std::string words;
+  for (const std::string& name : entry.left_out)
+  {
+    words += (words.empty() ? "no " : ", no ") + name;
+  }
+  return words;
+}
+
 const ComparisonEntry* find_drawn(const Comparison& comparison, const std::string& mapper)
 {
   for (const ComparisonEntry& entry : comparison.entries)

@@ -80,6 +80,9 @@ struct ComparisonEntry
   std::string title;      ///< for people, e.g. "Brume ray march"
   std::string class_name; ///< e.g. "vtkBrumeRayMarchMapper"; may be empty
   std::string skipped;    ///< why nothing was drawn; empty when it was. The rest is then unused.
+  /// What of the scene the mapper knows nothing of, in a few words each: its picture lacks them, and
+  /// its errors hold them. Empty where it draws the whole scene.
+  std::vector<std::string> left_out;
   Picture picture;
   Timing timing;
   ImageErrors against_truth;
@@ -126,7 +129,11 @@ struct Comparison
   std::string command_line; ///< exactly what repeats the comparison
   std::string date;         ///< e.g. "2024-05-01 12:00 UTC"; empty: left out
   DisplayCurve display_curve = DisplayCurve::Identity; ///< how pictures are shown, not measured
+  double exposure = 0.0; ///< stops that pictures are shown brighter by, not measured
 };
+
+/// What an entry leaves out, for people: "no fog, no shadows in the medium"; empty for nothing.
+VTKBRUMEANALYSIS_EXPORT std::string left_out_words(const ComparisonEntry& entry);
 
 /// The entry of that mapper's name that was drawn (not skipped), or null.
 VTKBRUMEANALYSIS_EXPORT const ComparisonEntry* find_drawn(

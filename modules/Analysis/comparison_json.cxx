@@ -114,6 +114,11 @@ Json entry_json(const ComparisonEntry& entry)
   {
     return json;
   }
+  json["left_out"] = Json::array();
+  for (const std::string& name : entry.left_out)
+  {
+    json["left_out"].push_back(valid_utf8(name));
+  }
   json["seconds"] = seconds_json(entry.timing);
   json["errors_against_truth"] = errors_json(entry.against_truth);
   json["errors_against_reference"] =
@@ -155,6 +160,7 @@ std::string to_json(const Comparison& comparison)
     { "difference_gain", shared_gain(drawn) },
     { "display_curve",
       comparison.display_curve == DisplayCurve::Srgb ? "srgb" : "identity" },
+    { "exposure", number(comparison.exposure) },
     { "entries", entries },
     { "truth",
       { { "method", text_or_null(truth.method) },

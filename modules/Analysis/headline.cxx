@@ -178,6 +178,11 @@ std::string headline(const Comparison& comparison)
     std::isfinite(errors.mean_absolute) && std::isfinite(reference->against_truth.mean_absolute);
   text += comparable ? joined(faster, accuracy(*subject, *reference, comparison.truth))
                      : faster.words + ".";
+  if (!reference->left_out.empty())
+  {
+    text += " The picture of " + name_of(*reference) + " holds " + left_out_words(*reference) +
+      ", which its error counts.";
+  }
   return text + broken_pictures(*subject, reference);
 }
 

@@ -110,7 +110,7 @@ std::vector<Column> columns_of(const Comparison& comparison, double gain)
     Column column;
     column.title = entry.title.empty() ? entry.mapper : entry.title;
     column.figures = figures_line(entry);
-    column.picture = to_bitmap(entry.picture, comparison.display_curve);
+    column.picture = to_bitmap(entry.picture, comparison.display_curve, comparison.exposure);
     if (has_truth)
     {
       column.difference =
@@ -127,7 +127,7 @@ std::vector<Column> columns_of(const Comparison& comparison, double gain)
     Column column;
     column.title = "Truth";
     column.figures = seconds_text(comparison.truth.seconds);
-    column.picture = to_bitmap(truth, comparison.display_curve);
+    column.picture = to_bitmap(truth, comparison.display_curve, comparison.exposure);
     column.note = "On the left, each picture's " +
       difference_label(DifferenceKind::Absolute, gain) +
       ": how far it is from this one. The truth's own remaining error is estimated at " +
@@ -194,16 +194,18 @@ void draw_column(Canvas& canvas, const Layout& layout, int index, const Column& 
   }
 }
 
-std::vector<std::string> skipped_lines(const Comparison& comparison, const TextStyle& style, int width)
+std::vector<std::string> lines_of_the_foot(const Comparison& comparison, const TextStyle& style, int width)
 {
   std::vector<std::string> lines;
   for (const ComparisonEntry& entry : comparison.entries)
   {
-    if (!entry.skipped.empty())
+    const bool skipped = !entry.skipped.empty();
+    if (skipped || !entry.left_out.empty())
     {
       for (const std::string& line :
-        wrapped("Not drawn: " + (entry.title.empty() ? entry.mapper : entry.title) + ": " +
-            entry.skipped,
+        wrapped((skipped ? "Not drawn: " : "Drawn in part: ") +
+            (entry.title.empty() ? entry.mapper : entry.title) + ": " +
+            (skipped ? entry.skipped : left_out_words(entry)),
           style, width, 2))
       {
         lines.push_back(line);
@@ -232,12 +234,12 @@ Bitmap panel(const Comparison& comparison)
 
   const TextStyle quiet{ layout.size, false, palette::quiet };
   const int line_height = layout.size + layout.size / 2;
-  const std::vector<std::string> skipped =
-    skipped_lines(comparison, quiet, layout.width() - 2 * layout.margin());
+  const std::vector<std::string> remarks =
+    lines_of_the_foot(comparison, quiet, layout.width() - 2 * layout.margin());
   const LegendLayout legend{ std::min(layout.width() - 2 * layout.margin(), 48 * layout.size) +
       2 * layout.size, layout.size };
   const int foot = (layout.differences ? legend.height() : layout.size) +
-    static_cast<int>(skipped.size()) * line_height + layout.size;
+    static_cast<int>(remarks.size()) * line_height + layout.size;
 
   Canvas canvas(layout.width(), layout.foot_top() + foot, palette::page);
   draw_head(canvas, layout, comparison);
@@ -254,7 +256,7 @@ Bitmap panel(const Comparison& comparison)
       gain, non_finite);
     y += legend.height();
   }
-  for (const std::string& line : skipped)
+  for (const std::string& line : remarks)
   {
     y += line_height;
     canvas.text(layout.margin(), y - layout.size / 2, line, quiet);

@@ -15,7 +15,7 @@ namespace brume
 /// through the comparison's display curve, and its absolute difference from the truth. All
 /// differences share one gain (shared_gain()), which the legend at the foot states, so they can be
 /// compared by eye. The last column is the truth, if its picture is there, and states the truth's
-/// own remaining error. The foot names mappers that were skipped.
+/// own remaining error. The foot names mappers that were skipped and what others leave out.
 ///
 /// A picture narrower than 320 pixels is enlarged by a whole factor (each pixel stays a square), one
 /// wider than 640 is reduced to that, so 1 to 5 mappers give a panel of 400 to 4000 pixels' width.

@@ -46,8 +46,9 @@ void check_shape(const Bitmap& bitmap, const char* what)
   check(bitmap, what);
 }
 
-Bitmap to_bitmap(const Picture& picture, DisplayCurve curve)
+Bitmap to_bitmap(const Picture& picture, DisplayCurve curve, double exposure)
 {
+  const double brightened = std::exp2(exposure);
   check_shape(picture, "picture to display");
   Bitmap bitmap{ picture.width, picture.height, {} };
   bitmap.rgb.resize(picture.rgb.size());
@@ -64,7 +65,7 @@ Bitmap to_bitmap(const Picture& picture, DisplayCurve curve)
     }
     for (int channel = 0; channel < 3; ++channel)
     {
-      const double v = std::clamp(static_cast<double>(in[channel]), 0.0, 1.0);
+      const double v = std::clamp(brightened * in[channel], 0.0, 1.0);
       out[channel] = static_cast<unsigned char>(
         std::lround(255.0 * (curve == DisplayCurve::Srgb ? srgb_from_linear(v) : v)));
     }

@@ -37,11 +37,12 @@ enum class DisplayCurve
   Srgb,     ///< the curve of IEC 61966-2-1, for light that is radiometric
 };
 
-/// The picture as bytes: each value is clamped to [0, 1], passed through the curve and rounded.
+/// The picture as bytes: each value is multiplied by 2^exposure (stops), clamped to [0, 1], passed
+/// through the curve and rounded.
 /// A pixel with a non-finite channel becomes magenta (255, 0, 255), so that nobody overlooks it.
 /// Throws std::invalid_argument where check_shape() does.
 VTKBRUMEANALYSIS_EXPORT Bitmap to_bitmap(
-  const Picture& picture, DisplayCurve curve = DisplayCurve::Identity);
+  const Picture& picture, DisplayCurve curve = DisplayCurve::Identity, double exposure = 0.0);
 
 /// The bytes of a PNG file (8 bits a channel, no alpha) that holds the bitmap.
 /// Throws std::invalid_argument for an empty or wrongly sized bitmap and std::runtime_error when

@@ -359,6 +359,16 @@ Json report_context(const Comparison& comparison)
     }
   }
   context["has_skipped"] = !context["skipped"].empty();
+  context["in_part"] = Json::array();
+  for (const ComparisonEntry& entry : comparison.entries)
+  {
+    if (!entry.left_out.empty())
+    {
+      context["in_part"].push_back(
+        { { "title", title_of(entry) }, { "words", left_out_words(entry) } });
+    }
+  }
+  context["has_in_part"] = !context["in_part"].empty();
   add_scene(context, comparison.scene);
   add_bars(context, comparison);
   add_pictures(context, comparison);

@@ -136,7 +136,7 @@ void add_pictures(Json& context, const Comparison& comparison)
     const std::string id = id_of(entry, i);
     const std::string title = title_of(entry);
     Json picture =
-      picture_json(id, title, to_bitmap(entry.picture, comparison.display_curve));
+      picture_json(id, title, to_bitmap(entry.picture, comparison.display_curve, comparison.exposure));
     picture["class_name"] = entry.class_name;
     picture["alt"] = "The scene as " + title + " draws it";
     picture["figures"] = seconds_text(entry.timing.median) +
@@ -161,7 +161,7 @@ void add_pictures(Json& context, const Comparison& comparison)
   }
   if (has_truth)
   {
-    Json picture = picture_json("truth", "Truth", to_bitmap(truth, comparison.display_curve));
+    Json picture = picture_json("truth", "Truth", to_bitmap(truth, comparison.display_curve, comparison.exposure));
     picture["alt"] = "The scene as the truth has it";
     picture["figures"] = seconds_text(comparison.truth.seconds) + ", remaining mean error " +
       over_255(comparison.truth.remaining_mean);
@@ -173,10 +173,14 @@ void add_pictures(Json& context, const Comparison& comparison)
   context["differences"] = std::move(differences);
   context["own_gains"] = std::move(own_gains);
   context["non_finite"] = non_finite > 0;
-  context["display_note"] = comparison.display_curve == DisplayCurve::Srgb
-    ? "Shown through the sRGB curve and cut to what a display holds; measured before both."
-    : "Shown as a VTK window shows the same numbers (a byte is 255 times the value, with no display "
-      "curve) and cut to what a display holds; measured before that.";
+  const std::string exposed = comparison.exposure == 0.0
+    ? ""
+    : "Brightened by " + figure(comparison.exposure) + " stops. ";
+  context["display_note"] = exposed +
+    (comparison.display_curve == DisplayCurve::Srgb
+        ? "Shown through the sRGB curve and cut to what a display holds; measured before both."
+        : "Shown as a VTK window shows the same numbers (a byte is 255 times the value, with no display "
+          "curve) and cut to what a display holds; measured before that.");
   add_legend(context, gain);
 }
 

@@ -101,7 +101,21 @@ std::string to_text_table(const std::vector<Comparison>& comparisons)
     row.erase(row.find_last_not_of(' ') + 1);
     text += row + "\n";
   }
-  return text + "errors against the truth, in 1/255 of white, linear RGB\n";
+  text += "errors against the truth, in 1/255 of white, linear RGB\n";
+  for (const Comparison& comparison : comparisons)
+  {
+    for (const ComparisonEntry& entry : comparison.entries)
+    {
+      if (entry.skipped.empty() && !entry.left_out.empty())
+      {
+        std::string words =
+          valid_utf8(entry.mapper) + " draws it in part: " + valid_utf8(left_out_words(entry));
+        std::replace(words.begin(), words.end(), '\n', ' ');
+        text += words + "\n";
+      }
+    }
+  }
+  return text;
 }
 
 }

@@ -154,7 +154,10 @@ void vtkBrumeFog::FillFog(brume::Fog& fog) const
   fog.base_height = this->BaseHeight;
 }
 
-bool vtkBrumeFog::RenderFilm(vtkCamera* camera, vtkLightCollection* lights, brume::Film& film)
+bool vtkBrumeFog::RenderFilm(vtkCamera* camera,
+  vtkLightCollection* lights,
+  brume::Film& film,
+  const std::vector<float>& surface_depth)
 {
   if (!camera || film.width <= 0 || film.height <= 0)
   {
@@ -171,6 +174,13 @@ bool vtkBrumeFog::RenderFilm(vtkCamera* camera, vtkLightCollection* lights, brum
       vtkErrorMacro(<< wrong);
       return false;
     }
+    if (!surface_depth.empty() && surface_depth.size() != film.size())
+    {
+      vtkErrorMacro("The surfaces' depth has " << surface_depth.size()
+                                               << " pixels, and the picture " << film.size() << ".");
+      return false;
+    }
+    scene.surface_depth = surface_depth;
     return brume::render_fog(scene, film, this->NumberOfThreads);
   }
   catch (const std::invalid_argument& error)

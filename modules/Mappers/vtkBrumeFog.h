@@ -40,6 +40,7 @@
 #include "vtkProp.h"
 
 #include <memory> // for std::unique_ptr
+#include <vector> // for std::vector
 
 class vtkBrumeSky;
 class vtkCamera;
@@ -147,9 +148,14 @@ public:
 #ifndef __VTK_WRAP__
   /**
    * Draws the fog alone, without a window: the camera's view, lit by `lights` (null: a headlight). The
-   * film's size is the picture's. Returns false after a vtkErrorMacro where nothing was drawn.
+   * film's size is the picture's. The fog ends at surfaces whose depth is given as
+   * vtkBrumeVolumeMapper::SetSurfaceDepth() takes it; empty: none. Returns false after a vtkErrorMacro
+   * where nothing was drawn.
    */
-  bool RenderFilm(vtkCamera* camera, vtkLightCollection* lights, brume::Film& film);
+  bool RenderFilm(vtkCamera* camera,
+    vtkLightCollection* lights,
+    brume::Film& film,
+    const std::vector<float>& surface_depth = {});
 
   /**
    * The settings as Transport has them.

@@ -1,103 +1,82 @@
 #include "vtkBrumeCloudSource.h"
 
-#include "vtkBrumeSourceTools.h"
+#include "data-generators/clouds.h"
 
-#include "data-generators/cumulus.h"
-
-#include "vtkDataArray.h"
-#include "vtkImageData.h"
-#include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointData.h"
 
+#include <algorithm>
 #include <cstdint>
-#include <exception>
 
 vtkStandardNewMacro(vtkBrumeCloudSource);
 
-vtkBrumeCloudSource::vtkBrumeCloudSource()
+namespace
 {
-  this->SetNumberOfInputPorts(0);
+
+const char* const kind_names[] = { "Cumulus",
+  "CumulusField",
+  "Stratus",
+  "Stratocumulus",
+  "Cirrus",
+  "Cumulonimbus" };
+
 }
+
+vtkBrumeCloudSource::vtkBrumeCloudSource() = default;
 
 vtkBrumeCloudSource::~vtkBrumeCloudSource() = default;
 
-const brume::Cumulus& vtkBrumeCloudSource::GetCloud()
+void vtkBrumeCloudSource::SetKind(int kind)
 {
-  if (!this->Cloud || this->CloudTime != this->GetMTime())
+  kind = std::clamp<int>(kind, KindCumulus, KindCumulonimbus);
+  if (kind == this->Kind)
   {
-    brume::CumulusOptions options;
-    options.seed = static_cast<std::uint32_t>(this->Seed);
-    options.width = this->Width;
-    options.detail_size = this->DetailSize;
-    options.octaves = this->Octaves;
-    options.offset = this->Offset;
-    options.crispness = this->Crispness;
-    options.warp_amplitude = this->WarpAmplitude;
-    options.warp_size = this->WarpSize;
-    options.wind = { this->Wind[0], this->Wind[1], this->Wind[2] };
-    this->Cloud = std::make_unique<brume::Cumulus>(options);
-    this->CloudTime = this->GetMTime();
+    return;
   }
-  return *this->Cloud;
+  const brume::CloudOptions usual = brume::cloud_defaults(static_cast<brume::CloudKind>(kind));
+  this->Kind = kind;
+  this->BaseHeight = usual.base;
+  this->TopHeight = usual.top;
+  this->Coverage = usual.coverage;
+  this->Width = usual.width;
+  this->DetailSize = usual.detail_size;
+  this->Octaves = usual.octaves;
+  this->Offset = usual.offset;
+  this->Crispness = usual.crispness;
+  this->WarpAmplitude = usual.warp_amplitude;
+  this->WarpSize = usual.warp_size;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    this->Wind[axis] = usual.wind[axis];
+  }
+  this->Modified();
 }
 
-int vtkBrumeCloudSource::RequestInformation(vtkInformation*,
-  vtkInformationVector**,
-  vtkInformationVector* outputs)
+std::shared_ptr<const brume::Field> vtkBrumeCloudSource::MakeField()
 {
-  try
-  {
-    brume::describe_grid(brume::grid_over(this->GetCloud().bounds(), this->Size),
-      VTK_FLOAT,
-      outputs->GetInformationObject(0));
-  }
-  catch (const std::exception& problem)
-  {
-    vtkErrorMacro("the settings make no cloud: " << problem.what());
-    return 0;
-  }
-  return 1;
-}
-
-int vtkBrumeCloudSource::RequestData(vtkInformation*,
-  vtkInformationVector**,
-  vtkInformationVector* outputs)
-{
-  vtkInformation* info = outputs->GetInformationObject(0);
-  vtkImageData* image = vtkImageData::GetData(info);
-  try
-  {
-    const brume::Cumulus& cloud = this->GetCloud();
-    const brume::Lattice grid = brume::grid_over(cloud.bounds(), this->Size);
-    this->AllocateOutputData(image, info);
-    image->GetPointData()->GetScalars()->SetName("density");
-    const brume::Extent block = brume::extent_of(image->GetExtent());
-    if (block.voxels() > 0 && !brume::sample(cloud,
-                                this->Time,
-                                grid,
-                                block,
-                                static_cast<float*>(image->GetScalarPointer()),
-                                brume::progress_of(this)))
-    {
-      image->Initialize();
-    }
-  }
-  catch (const std::exception& problem)
-  {
-    image->Initialize();
-    vtkErrorMacro("the cloud could not be made: " << problem.what());
-    return 0;
-  }
-  return 1;
+  brume::CloudOptions options;
+  options.kind = static_cast<brume::CloudKind>(this->Kind);
+  options.seed = static_cast<std::uint32_t>(this->Seed);
+  options.width = this->Width;
+  options.base = this->BaseHeight;
+  options.top = this->TopHeight;
+  options.coverage = this->Coverage;
+  options.detail_size = this->DetailSize;
+  options.octaves = this->Octaves;
+  options.offset = this->Offset;
+  options.crispness = this->Crispness;
+  options.warp_amplitude = this->WarpAmplitude;
+  options.warp_size = this->WarpSize;
+  options.wind = { this->Wind[0], this->Wind[1], this->Wind[2] };
+  return brume::make_cloud(options);
 }
 
 void vtkBrumeCloudSource::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Size: " << this->Size << " voxels\n";
-  os << indent << "Seed: " << this->Seed << "\n";
-  os << indent << "Time: " << this->Time << " s\n";
+  os << indent << "Kind: " << kind_names[this->Kind] << "\n";
+  os << indent << "BaseHeight: " << this->BaseHeight << " m\n";
+  os << indent << "TopHeight: " << this->TopHeight << " m\n";
+  os << indent << "Coverage: " << this->Coverage << "\n";
   os << indent << "Width: " << this->Width << " m\n";
   os << indent << "DetailSize: " << this->DetailSize << " m\n";
   os << indent << "Octaves: " << this->Octaves << "\n";

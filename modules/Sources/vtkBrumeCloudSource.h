@@ -1,73 +1,96 @@
 /**
  * @class   vtkBrumeCloudSource
- * @brief   a cumulus: flat base, cauliflower top, wispy edges
+ * @brief   clouds: cumulus, layers, cirrus, cumulonimbus
  *
- * Gives the density of a fair-weather cloud as a vtkImageData of floats. Point scalars are named
- * "density" and lie in [0, 1], without a unit: multiply by an extinction per metre (0.02 to 0.1 for
- * real cumulus) to get the medium's extinction.
+ * Gives the density of a cloud, dense or sparse, at any moment (vtkBrumeFieldSource says how).
+ * Point scalars are named "density" and lie in [0, 1], without a unit: multiply by an extinction
+ * per metre (0.02 to 0.1 for clouds of droplets, 0.0005 to 0.003 for cirrus) to get the medium's
+ * extinction.
  *
- * World units are metres: the volume fills a box of Width x Width x 0.6 Width, x and y around 0, z
- * up from 0. The cloud's base is at 0.08 Width. Nothing of the cloud comes nearer to the box's
- * faces than 0.02 Width, so from Size = 26 on all outer voxels are exactly 0. The formula and its
- * sources: data-generators/cumulus.h.
+ * World units are metres, x and y around 0, z up. A cumulus' box is Width x Width x 0.6 Width, with
+ * its base at 0.08 Width, unless BaseHeight and TopHeight say otherwise; nothing of it comes nearer
+ * to the box's faces than 0.02 Width, so from Size = 26 on all outer voxels are exactly 0. Boxes
+ * and formulas of all kinds, and where they come from: data-generators/clouds.h and cumulus.h.
  *
- * The source makes the pieces that it is asked for; together they equal the whole, to the bit. The
- * same settings give the same bytes on every machine and with any number of threads. It reports
- * progress, and stops soon after AbortExecute is set: the output is then empty, and the next update
- * starts over. A setting that is not a number is an error, and gives an empty output.
+ * Each kind has defaults of its own, which SetKind() puts in place: set the kind first. Those named
+ * below are a cumulus'.
  *
- * @sa vtkBrumePhantomSource
+ * | kind | Width | BaseHeight | TopHeight | Coverage | Wind |
+ * |---|---|---|---|---|---|
+ * | KindCumulus | 2000 | 0 (0.08 Width) | 0 (0.44 Width above) | - | 4, 1, 1.5 |
+ * | KindCumulusField | 6000 | 600 | 1500 | 0.25 | 6, 2, 1 |
+ * | KindStratus | 6000 | 200 | 600 | 0.85 | 5, 1, 0 |
+ * | KindStratocumulus | 8000 | 900 | 1500 | 0.7 | 8, 2, 0 |
+ * | KindCirrus | 12000 | 8000 | 9500 | 0.55 | 30, 8, 0 |
+ * | KindCumulonimbus | 20000 | 1200 | 12000 | - | 18, 3, 6 |
+ *
+ * @sa vtkBrumeFogSource vtkBrumeFieldSource
  */
 #ifndef vtkBrumeCloudSource_h
 #define vtkBrumeCloudSource_h
 
+#include "vtkBrumeFieldSource.h"
 #include "vtkBrumeSourcesModule.h" // for the export macro
-#include "vtkImageAlgorithm.h"
 
-#include <memory> // for the cloud that is kept
-
-namespace brume
-{
-class Cumulus;
-}
-
-class VTKBRUMESOURCES_EXPORT vtkBrumeCloudSource : public vtkImageAlgorithm
+class VTKBRUMESOURCES_EXPORT vtkBrumeCloudSource : public vtkBrumeFieldSource
 {
 public:
   static vtkBrumeCloudSource* New();
-  vtkTypeMacro(vtkBrumeCloudSource, vtkImageAlgorithm);
+  vtkTypeMacro(vtkBrumeCloudSource, vtkBrumeFieldSource);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  enum Kinds
+  {
+    KindCumulus = 0,   ///< one fair-weather cloud: flat base, cauliflower top, wispy edges
+    KindCumulusField,  ///< many of them of all sizes, over one level
+    KindStratus,       ///< a grey sheet, ragged below, waved above
+    KindStratocumulus, ///< a layer of cells, domed, with gaps between
+    KindCirrus,        ///< streaks of ice, drawn out by the wind
+    KindCumulonimbus   ///< a tower with an anvil
+  };
+
   ///@{
   /**
-   * Voxels along the longest side of the volume (x and y). Voxels are cubes. Default 256, range 2
-   * to 4096; outside it the nearest end.
+   * What cloud it is. Default KindCumulus; other values become the nearest. A kind that is another
+   * one than before puts its own defaults in place of all settings below this one.
    */
-  vtkSetClampMacro(Size, int, 2, 4096);
-  vtkGetMacro(Size, int);
+  void SetKind(int kind);
+  vtkGetMacro(Kind, int);
+  void SetKindToCumulus() { this->SetKind(KindCumulus); }
+  void SetKindToCumulusField() { this->SetKind(KindCumulusField); }
+  void SetKindToStratus() { this->SetKind(KindStratus); }
+  void SetKindToStratocumulus() { this->SetKind(KindStratocumulus); }
+  void SetKindToCirrus() { this->SetKind(KindCirrus); }
+  void SetKindToCumulonimbus() { this->SetKind(KindCumulonimbus); }
   ///@}
 
   ///@{
   /**
-   * Which cloud. Default 1, any value.
+   * Heights of the cloud's base and of its top, in metres. The base must be below the top, for a
+   * cumulus, a cumulus field and a cumulonimbus at 0.03 Width or higher. For a cumulus 0, the
+   * default, leaves them to the Width. Any finite value.
    */
-  vtkSetMacro(Seed, int);
-  vtkGetMacro(Seed, int);
+  vtkSetMacro(BaseHeight, double);
+  vtkGetMacro(BaseHeight, double);
+  vtkSetMacro(TopHeight, double);
+  vtkGetMacro(TopHeight, double);
   ///@}
 
   ///@{
   /**
-   * The moment, in seconds: the wind has carried the noise through the cloud for so long. The cloud
-   * boils, and stays in its box. Default 0, any finite value.
+   * Fraction of the ground that is under cloud, for cumulus fields and layers, away from the sides
+   * of the box. Without a unit, default 0.5, range 0 to 1; outside it the nearest end. A cumulus
+   * and a cumulonimbus are one cloud, and it does not matter.
    */
-  vtkSetMacro(Time, double);
-  vtkGetMacro(Time, double);
+  vtkSetClampMacro(Coverage, double, 0.0, 1.0);
+  vtkGetMacro(Coverage, double);
   ///@}
 
   ///@{
   /**
-   * Width of the box, in metres. The cloud grows with it, its detail (DetailSize, WarpSize,
-   * WarpAmplitude) does not. Default 2000, range 1 to 1e6; outside it the nearest end.
+   * Width of the box, in metres. A cumulus grows with it; of other kinds there is more. The detail
+   * (DetailSize, WarpSize, WarpAmplitude) stays. Default 2000, range 1 to 1e6; outside it the
+   * nearest end.
    */
   vtkSetClampMacro(Width, double, 1.0, 1e6);
   vtkGetMacro(Width, double);
@@ -75,8 +98,8 @@ public:
 
   ///@{
   /**
-   * Size of the largest bulges of the noise, in metres. Default 160, range 0.1 to 1e6; outside it
-   * the nearest end.
+   * Size of the largest bulges of the noise, in metres; for cirrus the distance of its streaks.
+   * Default 160, range 0.1 to 1e6; outside it the nearest end.
    */
   vtkSetClampMacro(DetailSize, double, 0.1, 1e6);
   vtkGetMacro(DetailSize, double);
@@ -112,7 +135,8 @@ public:
   ///@{
   /**
    * The domain warp: how far, at most and along each axis, the noise pushes the cloud about, in
-   * metres. Default 50, 0 is none; a negative one counts as 0, more than 0.06 Width as 0.06 Width.
+   * metres. Default 50, 0 is none; a negative one counts as 0, more than 0.06 Width as 0.06 Width,
+   * for layers more than Width as Width.
    */
   vtkSetMacro(WarpAmplitude, double);
   vtkGetMacro(WarpAmplitude, double);
@@ -129,8 +153,9 @@ public:
 
   ///@{
   /**
-   * The wind that carries the noise, in metres a second along x, y and z. Default (4, 1, 1.5), any
-   * finite value.
+   * The wind, in metres a second along x, y and z. It carries layers through their box, and the
+   * noise of the others through the cloud, which boils and stays. The streaks of cirrus lie along
+   * it. Default (4, 1, 1.5), any finite value.
    */
   vtkSetVector3Macro(Wind, double);
   vtkGetVector3Macro(Wind, double);
@@ -140,12 +165,12 @@ protected:
   vtkBrumeCloudSource();
   ~vtkBrumeCloudSource() override;
 
-  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
-  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  std::shared_ptr<const brume::Field> MakeField() override;
 
-  int Size = 256;
-  int Seed = 1;
-  double Time = 0.0;
+  int Kind = KindCumulus;
+  double BaseHeight = 0.0;
+  double TopHeight = 0.0;
+  double Coverage = 0.5;
   double Width = 2000.0;
   double DetailSize = 160.0;
   int Octaves = 5;
@@ -158,12 +183,6 @@ protected:
 private:
   vtkBrumeCloudSource(const vtkBrumeCloudSource&) = delete;
   void operator=(const vtkBrumeCloudSource&) = delete;
-
-  // The cloud of the present settings; throws std::invalid_argument where they make none.
-  const brume::Cumulus& GetCloud();
-
-  std::unique_ptr<brume::Cumulus> Cloud; // kept from piece to piece
-  vtkMTimeType CloudTime = 0;            // this object's time of change when it was made
 };
 
 #endif

@@ -43,6 +43,8 @@ int vtkBrumeSmokeSource::RequestInformation(vtkInformation*,
     const brume::Plume plume(this->GetOptions());
     brume::describe_grid(
       brume::grid_over(plume.bounds(), this->Size), VTK_FLOAT, outputs->GetInformationObject(0));
+    brume::describe_time(
+      this->StartTime, this->EndTime, this->NumberOfTimeSteps, outputs->GetInformationObject(0));
   }
   catch (const std::exception& problem)
   {
@@ -69,6 +71,8 @@ int vtkBrumeSmokeSource::RequestData(vtkInformation*,
     {
       return 1;
     }
+    const double time = brume::requested_time(info, this->Time);
+    image->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
     vtkNew<vtkFloatArray> temperatures;
     temperatures->SetName("temperature");
     temperatures->SetNumberOfTuples(static_cast<vtkIdType>(block.voxels()));
@@ -79,7 +83,7 @@ int vtkBrumeSmokeSource::RequestData(vtkInformation*,
     {
       for (int i = block.first.x; i <= block.last.x; ++i, ++offset)
       {
-        const brume::Plume::State state = plume.at(grid.place(i, j, k), this->Time);
+        const brume::Plume::State state = plume.at(grid.place(i, j, k), time);
         density[offset] = state.density;
         temperature[offset] = state.temperature;
       }
@@ -104,6 +108,9 @@ void vtkBrumeSmokeSource::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Size: " << this->Size << " voxels\n";
   os << indent << "Seed: " << this->Seed << "\n";
   os << indent << "Time: " << this->Time << " s\n";
+  os << indent << "StartTime: " << this->StartTime << " s\n";
+  os << indent << "EndTime: " << this->EndTime << " s\n";
+  os << indent << "NumberOfTimeSteps: " << this->NumberOfTimeSteps << "\n";
   os << indent << "Width: " << this->Width << " m\n";
   os << indent << "Rise: " << this->Rise << " m/s\n";
   os << indent << "AirTemperature: " << this->AirTemperature << " K\n";

@@ -37,8 +37,8 @@ public:
 
   ///@{
   /**
-   * Voxels along the longest side of the volume (z). Voxels are cubes. Default 256, range 2 to 4096;
-   * outside it the nearest end.
+   * Voxels along the longest side of the volume (z). Voxels are cubes. Default 256, range 2 to
+   * 4096; outside it the nearest end.
    */
   vtkSetClampMacro(Size, int, 2, 4096);
   vtkGetMacro(Size, int);
@@ -54,10 +54,26 @@ public:
 
   ///@{
   /**
-   * The moment, in seconds: the turbulence has risen for so long. Default 0, any finite value.
+   * The moment that is made where the pipeline asks for none (UPDATE_TIME_STEP), in seconds: the
+   * turbulence has risen for so long. Default 0, any finite value.
    */
   vtkSetMacro(Time, double);
   vtkGetMacro(Time, double);
+  ///@}
+
+  ///@{
+  /**
+   * The moments that the pipeline is told of (TIME_STEPS): so many, evenly from StartTime to
+   * EndTime, in seconds. Any other moment can be asked for, too. Default 101 from 0 to 10; the
+   * number from 1 to 1e6, outside it the nearest end. An EndTime that is not after StartTime leaves
+   * StartTime alone.
+   */
+  vtkSetMacro(StartTime, double);
+  vtkGetMacro(StartTime, double);
+  vtkSetMacro(EndTime, double);
+  vtkGetMacro(EndTime, double);
+  vtkSetClampMacro(NumberOfTimeSteps, int, 1, 1000000);
+  vtkGetMacro(NumberOfTimeSteps, int);
   ///@}
 
   ///@{
@@ -98,6 +114,9 @@ protected:
   int Size = 256;
   int Seed = 1;
   double Time = 0.0;
+  double StartTime = 0.0;
+  double EndTime = 10.0;
+  int NumberOfTimeSteps = 101;
   double Width = 4.0;
   double Rise = 1.2;
   double AirTemperature = 300.0;

@@ -9,6 +9,8 @@
 #include "vtkInformation.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <vector>
+
 namespace brume
 {
 
@@ -23,6 +25,30 @@ inline void describe_grid(const Lattice& grid, int scalar_type, vtkInformation* 
   info->Set(vtkDataObject::SPACING(), grid.spacing.x, grid.spacing.y, grid.spacing.z);
   vtkDataObject::SetPointDataActiveScalarInfo(info, scalar_type, 1);
   info->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
+}
+
+/// Tells the pipeline that any moment can be had, and which ones to ask for: `steps` of them, evenly
+/// from the first to the last; the first alone where the last is not after it.
+inline void describe_time(double first, double last, int steps, vtkInformation* info)
+{
+  std::vector<double> times(1, first);
+  for (int n = 1; n < steps && last > first; ++n)
+  {
+    times.push_back(n == steps - 1 ? last : first + n * ((last - first) / (steps - 1)));
+  }
+  const double range[2] = { times.front(), times.back() };
+  info->Set(vtkStreamingDemandDrivenPipeline::TIME_STEPS(),
+    times.data(),
+    static_cast<int>(times.size()));
+  info->Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range, 2);
+}
+
+/// The moment that the pipeline asks for, or the source's own.
+inline double requested_time(vtkInformation* info, double own)
+{
+  return info->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP())
+           ? info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP())
+           : own;
 }
 
 /// VTK's six numbers as first and last voxel.

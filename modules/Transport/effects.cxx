@@ -57,7 +57,7 @@ double effect_cost(Effect effect)
     case Effect::Shadows:
       return 0.40;
     case Effect::Ambient:
-      return 1.01;
+      return 1.49;
     case Effect::Octaves:
       return 0.23;
     case Effect::GradientShading:

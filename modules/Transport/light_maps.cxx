@@ -1,7 +1,5 @@
 #include "Transport/light_maps.h"
 
-#include "Transport/exponential_integral.h"
-
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -390,60 +388,30 @@ void LightMaps::update(const Scene& scene,
   }
   std::vector<double> key = common;
   append(key, scene.sky.up);
-  append(key, { lit.channels[0], lit.channels[1], lit.channels[2] });
-  key.push_back(lit.chromatic);
   key.push_back(radiances[0] != glm::dvec3(0.0));
   key.push_back(radiances[1] != glm::dvec3(0.0));
-  const int channels = lit.chromatic ? 3 : 1;
-  if (lit.fog.enabled)
-  {
-    append(key, scene.fog.extinction);
-    key.insert(key.end(), { scene.fog.falloff, scene.fog.base_height });
-  }
+  settle_depth();
+  const bool wide = floats || most_depth > widest_word * 65535.0;
   // From below no light comes through layers without end.
   const bool layers = lit.fog.enabled && scene.fog.falloff > 0.0;
   if (key != this->Ambient.key)
   {
     this->Ambient.key.clear();
     settle();
-    if (this->E2.empty())
-    {
-      this->E2.resize(SweepTask::e2_intervals + 1);
-      for (std::size_t i = 0; i < this->E2.size(); ++i)
-      {
-        const double s = double(SweepTask::e2_last) * double(i) / SweepTask::e2_intervals;
-        this->E2[i] = static_cast<float>(exponential_integral_2(s * s));
-      }
-    }
     const Frame frame = this->frame_along(-glm::normalize(scene.sky.up), spacing);
     SweepTask task = prepare(frame, this->Ambient);
-    std::vector<float> fog[3];
-    for (int c = 0; c < 3 && layers; ++c)
-    {
-      for (int w = 0; w < frame.dims[2]; ++w)
-      {
-        const glm::dvec3 place = frame.origin + frame.axes[2] * double(w);
-        const double height = glm::dot(place, scene.sky.up) - scene.fog.base_height;
-        const double depth = scene.fog.extinction[c] > 0.0 ? scene.fog.extinction[c] *
-            std::exp(-scene.fog.falloff * height) / scene.fog.falloff
-                                                           : 0.0;
-        fog[c].push_back(static_cast<float>(std::min(depth, 1e6)));
-      }
-      task.fog[c] = fog[c].data();
-    }
-    task.result = SweepTask::Result::Ambient;
-    task.floats = floats;
-    task.e2 = this->E2.data();
-    this->Ambient.scale = static_cast<float>(1.0 / 65535.0);
+    task.result = SweepTask::Result::BothWays;
+    task.floats = wide;
+    this->Ambient.scale = static_cast<float>(most_depth / 65535.0);
     task.scale = this->Ambient.scale;
     const std::size_t count = static_cast<std::size_t>(task.dims[0]) * task.dims[1] * task.dims[2];
     for (int side = 0; side < 2; ++side)
     {
-      for (int c = 0; c < 3; ++c)
+      for (int map = 0; map < 3; ++map)
       {
-        const bool wanted = radiances[side] != glm::dvec3(0.0) && c < channels;
-        void* out = reserve(this->Ambient, 3 * side + c, wanted ? count : 0, floats);
-        task.out[3 * side + c] = wanted ? out : nullptr;
+        const bool wanted = radiances[side] != glm::dvec3(0.0) && map < lit.maps;
+        void* out = reserve(this->Ambient, 3 * side + map, wanted ? count : 0, wide);
+        task.out[3 * side + map] = wanted ? out : nullptr;
       }
     }
     this->run(task, threads);
@@ -456,12 +424,16 @@ void LightMaps::update(const Scene& scene,
       continue;
     }
     AmbientLight light;
+    light.from_above = side == 0;
     for (int c = 0; c < 3; ++c)
     {
       light.radiance[c] = static_cast<float>(radiances[side][c]);
-      LightGrid& grid = light.share[c];
-      grid.field = view(this->Ambient, 3 * side + (c < channels ? c : 0), floats);
-      grid.scale = floats ? 1.0f : this->Ambient.scale;
+    }
+    for (int map = 0; map < lit.maps; ++map)
+    {
+      LightGrid& grid = light.depth[map];
+      grid.field = view(this->Ambient, 3 * side + map, wide);
+      grid.scale = wide ? 1.0f : this->Ambient.scale;
       store(this->Ambient.node_from_world * this->WorldFromIndex, grid.node_from_index);
     }
     lit.ambient.push_back(light);

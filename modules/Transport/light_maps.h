@@ -59,7 +59,6 @@ private:
 
   std::vector<LightLattice> Lights;
   LightLattice Ambient;
-  std::vector<float> E2;
   std::vector<glm::dvec3> Corners; ///< of what can be seen, in the world
   glm::dmat4 WorldFromIndex{ 1.0 };
 };

@@ -89,8 +89,8 @@ private:
           put_functions(map, u, v);
         }
         break;
-      case SweepTask::Result::Ambient:
-        put_ambient(u, v);
+      case SweepTask::Result::BothWays:
+        put_both_ways(u, v);
         break;
     }
   }
@@ -267,39 +267,24 @@ private:
     }
   }
 
-  void put_ambient(int u, int v) const
+  void put_both_ways(int u, int v) const
   {
-    for (int side = 0; side < 2; ++side)
+    for (int map = 0; map < Lit.maps; ++map)
     {
-      for (int c = 0; c < 3; ++c)
+      const Real total = load(Task.dims[2] - 1, map);
+      for (int w = 0; w < Task.dims[2]; ++w)
       {
-        if (!Task.out[3 * side + c])
+        const Real here = load(w, map);
+        if (Task.out[map])
         {
-          continue;
+          put(map, u, v, w, here);
         }
-        const int map = Lit.maps == 3 ? c : 0;
-        const Real channel = real(Lit.maps == 3 ? 1.0f : Lit.channels[c]);
-        const Real total = load(Task.dims[2] - 1, map);
-        for (int w = 0; w < Task.dims[2]; ++w)
+        if (Task.out[3 + map])
         {
-          const Real here = load(w, map);
-          const Real depth = side == 0 ? here : max(total - here, hn::Zero(float_tag));
-          const Real fog = real(Task.fog[c] ? Task.fog[c][w] : 0.0f);
-          put(3 * side + c, u, v, w, second_exponential_integral(depth * channel + fog));
+          put(3 + map, u, v, w, max(total - here, hn::Zero(float_tag)));
         }
       }
     }
-  }
-
-  Real second_exponential_integral(Real depth) const
-  {
-    constexpr float last = SweepTask::e2_last;
-    constexpr int intervals = SweepTask::e2_intervals;
-    const Real at = hn::Min(hn::Sqrt(depth), real(last)) * real(intervals / last);
-    const Int index = hn::Min(hn::ConvertTo(int_tag, at), integer(intervals - 1));
-    const Real low = hn::GatherIndex(float_tag, Task.e2, index);
-    const Real high = hn::GatherIndex(float_tag, Task.e2 + 1, index);
-    return lerp(low, high, at - hn::ConvertTo(float_tag, index));
   }
 
   const SweepTask& Task;

@@ -27,6 +27,7 @@ HWY_INLINE Real mean_transmittance_of(Real x)
   return mean_transmittance(x, transmittance_of(x));
 }
 #include "Transport/fog-inl.h"
+#include "Transport/exponential_integral-inl.h"
 
 /// What a packet gathers of lit media: also the transmittances of G and B.
 struct LitGathered : Gathered
@@ -100,7 +101,7 @@ public:
       }
       for (const AmbientLight& light : Lit.ambient)
       {
-        Ambients.push_back(field_functions(light.share[0].field));
+        Ambients.push_back(field_functions(light.depth[0].field));
       }
     }
   }
@@ -886,22 +887,44 @@ private:
     Vec3<Real>& sent) const
   {
     Real* out[3] = { &sent.x, &sent.y, &sent.z };
+    Real fog = hn::Zero(float_tag); // above, of a channel of 1
+    if constexpr (Foggy)
+    {
+      if (Lit.fog.falloff > 0.0f)
+      {
+        fog = transmittance_of(fog_exponent(stretch.middle)) *
+          real(Lit.fog.extinction / Lit.fog.falloff);
+      }
+    }
     for (std::size_t i = 0; i < Lit.ambient.size(); ++i)
     {
       const AmbientLight& light = Lit.ambient[i];
-      const float* node_from_index = light.share[0].node_from_index;
+      const float* node_from_index = light.depth[0].node_from_index;
       const Line line{ transform(node_from_index, rays.lines[0].begin),
         multiply(node_from_index, 4, rays.lines[0].delta) };
-      Real value = hn::Zero(float_tag);
+      Real depth = hn::Zero(float_tag);
+      Real reaches = hn::Zero(float_tag);
       for (int c = 0; c < 3; ++c)
       {
+        if (c < Lit.maps)
+        {
+          Ambients[i].values(light.depth[c].field, line, &stretch.middle, 1, &depth);
+          depth = depth * real(light.depth[c].scale);
+        }
         if (c == 0 || Chromatic)
         {
-          Ambients[i].values(light.share[c].field, line, &stretch.middle, 1, &value);
-          value = value * real(light.share[c].scale);
+          Real whole = depth * real(Lit.channels[c]);
+          if constexpr (Foggy)
+          {
+            if (light.from_above)
+            {
+              whole = hn::MulAdd(fog, real(Lit.volumes[VolumeCount].channels[c]), whole);
+            }
+          }
+          reaches = second_exponential_integral(whole);
         }
         *out[c] =
-          hn::MulAdd(scatter[c] * share[c], value * real(0.5f * light.radiance[c]), *out[c]);
+          hn::MulAdd(scatter[c] * share[c], reaches * real(0.5f * light.radiance[c]), *out[c]);
       }
     }
   }

@@ -108,11 +108,12 @@ struct LitFrame
   std::uint32_t regions = 0;
 };
 
-/// Light of sky or ground: its radiance times a grid of what reaches a place of it, from 0 to 1.
+/// Light of sky or ground, which reaches a place by E₂ of the optical depth toward it.
 struct AmbientLight
 {
   float radiance[3] = { 0, 0, 0 };
-  LightGrid share[3]; ///< of R, G, B; the same three where maps is 1 and the channels are equal
+  LightGrid depth[3];    ///< as of LitLight
+  bool from_above = true; ///< the sky: it comes through the fog's layers too
 };
 
 /// Fog (fog.h), as kernels read it. Its profile is e^(−exponent), the exponent linear in index space.
@@ -172,19 +173,14 @@ struct SweepTask
   {
     Depth,     ///< optical depths toward the light
     Functions, ///< ShadowFunctions::planes planes a map
-    Ambient,   ///< E₂ of the depths toward both ends of the third axis
+    BothWays,  ///< optical depths toward both ends of the third axis
   };
   Result result = Result::Depth;
   bool floats = false; ///< results of 32 bits instead of 16; functions always are
   float scale = 1.0f;  ///< of 16 bits: what 1 stands for
-  /// Depth, Functions: one a map. Ambient: R, G, B of the light that enters at node 0, then of that
-  /// which enters at the other end. Null: not wanted.
+  /// Depth, Functions: one a map. BothWays: those toward node 0, one a map, then, from the fourth on,
+  /// those toward the other end. Null: not wanted.
   void* out[6] = { nullptr, nullptr, nullptr, nullptr, nullptr, nullptr };
-  /// Ambient, in fog: its optical depth upward at each node of the third axis, R, G, B; null: none.
-  const float* fog[3] = { nullptr, nullptr, nullptr };
-  const float* e2 = nullptr; ///< Ambient: E₂(s²) at even distances of s over [0, e2_last]
-  static constexpr int e2_intervals = 16384;
-  static constexpr float e2_last = 6.0f;
 };
 constexpr int most_lanes = 16;
 

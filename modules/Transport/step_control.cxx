@@ -32,6 +32,10 @@ constexpr int probes = 64; ///< along each side of the picture
 constexpr double longest = 4.0;
 constexpr double longest_lit = 1.0;
 constexpr double shortest = 1.0 / 32.0;
+/// In lit scenes no other rule helps out where the midpoint rule is not enough: for the sharpest
+/// tolerances its steps go on to be halved.
+constexpr double shortest_lit = 1.0 / 128.0;
+constexpr double sharpest_below = 1e-4;
 /// The largest error of all pixels is larger than that of the rays that were looked at.
 constexpr double unseen = 1.5;
 /// The share of rays that settles the step of all, where the others can be refined.
@@ -245,6 +249,7 @@ ShadowChoice choose_shadows(Marcher& marcher, const Scene& scene, double toleran
   choice.precise = true; // the sky's light
   if (exact)
   {
+    choice.step = 0.0;
     choice.estimated_error = rounding_of_rays;
     return choice;
   }
@@ -279,7 +284,9 @@ StepChoice choose_step(Marcher& marcher,
   Probe probe(marcher, scene, tolerance, threads, cheap);
   StepChoice choice;
   // In voxel edges. Light from one side bends where matter alone does not.
-  double step = is_lit(scene) ? longest_lit : longest;
+  const bool lit = is_lit(scene);
+  const double least = lit && tolerance < sharpest_below ? shortest_lit : shortest;
+  double step = lit ? longest_lit : longest;
   Film longer = probe.march(StepRule::Midpoint, step);
   Film shorter;
   double step_of_most = 0.0;  // with which most rays are within the tolerance
@@ -299,23 +306,24 @@ StepChoice choose_step(Marcher& marcher,
       scale_of_most = scale_of_estimates(longer, errors, tolerance);
     }
     choice.met = choice.estimated_error <= tolerance;
-    if (choice.met || step <= shortest)
+    if (choice.met || step <= least)
     {
       break;
     }
     step *= 0.5;
     std::swap(longer, shorter);
   }
-  if (choice.met && scene.blend_mode == BlendMode::Composite && step_of_most >= 4.0 * step &&
+  // Not even the shortest steps do for all rays of some lit scenes: those few are refined as far.
+  if ((choice.met || lit) && scene.blend_mode == BlendMode::Composite && step_of_most >= 4.0 * step &&
     scale_of_most > 0.0)
   {
     choice.step = step_of_most * smallest_voxel_edge(scene);
     choice.refinements = static_cast<int>(std::lround(std::log2(step_of_most / step)));
     choice.refine_error = tolerance / scale_of_most;
-    choice.estimated_error = tolerance;
+    choice.estimated_error = std::max(tolerance, choice.met ? 0.0 : choice.estimated_error);
     return choice;
   }
-  if (choice.met && step < (is_lit(scene) ? longest_lit : longest))
+  if (choice.met && step < (lit ? longest_lit : longest))
   {
     // Twice the step would be too long; some of it is not. Toward longer steps the error may grow
     // faster than with the square: the cube is on the safe side.

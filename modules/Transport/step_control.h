@@ -43,8 +43,8 @@ struct StepChoice
 };
 
 /// The cheapest steps with which the picture's largest error is expected to be within `tolerance` (a
-/// fraction of white, > 0): between 4 and 1/32 of the smallest voxel edge, by the rule that needs the
-/// fewer samples; the shortest where none is expected to do.
+/// fraction of white, > 0): between 4 and 1/32 of the smallest voxel edge (1/128 in lit scenes below
+/// 1e-4), by the rule that needs the fewer samples; the shortest where none is expected to do.
 ///
 /// The expectation is measured with the kernels themselves: 4096 rays of the scene's camera, spread
 /// evenly over the volume's own outline whatever part of it is in the picture, are marched with steps
@@ -55,7 +55,8 @@ struct StepChoice
 ///
 /// Where a few rays ask for much shorter steps than the rest, all take the steps that 19 of 20 rays
 /// allow, and the pixels whose own estimate tells of a larger error are refined: at `refine_error`,
-/// which is `tolerance` by the scale that estimates and measured errors have on the rays looked at.
+/// which is `tolerance` by the scale that estimates and measured errors have on the rays looked at. In
+/// lit scenes so also where the shortest steps leave some rays beyond the tolerance.
 ///
 /// In lit scenes steps are at most one voxel edge long, and radiance counts as a fraction of the
 /// brightest that these rays meet, where that is above 1.

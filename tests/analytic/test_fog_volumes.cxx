@@ -538,7 +538,7 @@ TEST(FogAndVolumes, TheReferenceDrawsThemToo)
     EXPECT_LT(world.worst(film), 2e-4) << how;
     const Film marched = world.march();
     // The marcher reads the sky's light from a lattice of the volumes' voxels.
-    EXPECT_LT(difference(film, marched), 4e-3) << how;
+    EXPECT_LT(difference(film, marched), 2e-3) << how;
     for (std::size_t i = 0; i < film.size(); ++i)
     {
       ASSERT_NEAR(marched.depth[i], film.depth[i], 0.1); // pieces of the reference

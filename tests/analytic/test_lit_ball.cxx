@@ -213,7 +213,7 @@ TEST(LitBall, Marched)
   look("functions, texels of a voxel", by_marcher(ShadowMethod::Functions, 1.0 / 64.0, 1.0), 0.09);
   look("functions, texels of 1/8", by_marcher(ShadowMethod::Functions, 1.0 / 64.0, 0.125), 0.02);
   look("tolerance 1e-3", by_tolerance(1e-3), 1e-3, 1.0);
-  look("tolerance 1e-5", by_tolerance(1e-5), 3e-5, 1.0); // the shortest step that is chosen is 1/32
+  look("tolerance 1e-5", by_tolerance(1e-5), 1e-5, 1.0);
 }
 
 // Twice as many voxels across halve what the soft edge does to the picture.

@@ -136,7 +136,7 @@ TEST(LitMedia, SkyAndGround)
         return slab.medium().albedo[c] * depths[c] * 0.5 *
                (above[c] * e2(depths[c] * (1.0 - z)) + below[c] * e2(depths[c] * z));
       },
-      { 1e-6, 0.0, 0.08, 0.0 });
+      { 1e-6, 0.0, 0.003, 0.0 });
   }
 }
 

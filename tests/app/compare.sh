@@ -47,6 +47,57 @@ expect_success
 ! cmp -s a/raymarch.png b/raymarch.png || fail "expected another picture"
 grep -q '"step": 0.125' b/compare.json || fail "expected the step in compare.json"
 
+# python3 answers where a figure of compare.json is asked for.
+figure_of() { python3 -c "import json; d = json.load(open('$1/compare.json')); print($2)"; }
+
+case_ "light, media and fog: against shadow rays; VTK's mappers draw what they know"
+blob ../blob.nrrd
+lit=(--preset cloud --sun-direction 1,0.3,0.6 --sky-radiance 0.1,0.1,0.2 --fog-extinction 0.01)
+run compare ../blob.nrrd --output out "${small[@]}" "${lit[@]}" --display-curve srgb --exposure 1
+expect_success
+[ "$(figure_of out "d['truth']['remaining_largest'] < 0.01")" = True ] ||
+  fail "expected march and double precision to agree"
+[ "$(figure_of out "d['entries'][0]['errors_against_truth']['largest'] < 0.02")" = True ] ||
+  fail "expected the lit picture to be near the truth"
+[ "$(figure_of out "d['display_curve'], d['exposure']")" = "srgb 1.0" ] || fail "expected srgb"
+[ "$(figure_of out "len(d['scene']['lights'])")" = 2 ] || fail "expected sun and sky by name"
+if [ "$(figure_of out "d['entries'][1]['skipped']")" = None ]; then
+  expect_output '^vtk-fixed-point draws it in part: no light scattered in the medium'
+  [ "$(figure_of out "'fog' in d['entries'][1]['left_out']")" = True ] || fail "expected fog by name"
+  [ "$(figure_of out "d['entries'][1]['contributions'][0]['name']")" = "what it leaves out" ] ||
+    fail "expected what is left out as a cause"
+  grep -q 'Drawn in part' out/report.html || fail "expected it in the report"
+fi
+run compare ../blob.nrrd --output forced "${small[@]}" "${lit[@]}" --mappers raymarch --force scattering=off
+expect_success
+[ "$(figure_of forced "d['entries'][0]['errors_against_truth']['largest'] > 0.05")" = True ] ||
+  fail "expected the truth to keep what is forced off"
+
+case_ "a density that absorbs: VTK's mappers have the same opacities"
+run compare sample:smoke --output out --extinction 1 --resolution 32,32 --repetitions 1 --quiet
+expect_success
+if [ "$(figure_of out "d['entries'][1]['skipped']")" = None ]; then
+  [ "$(figure_of out "d['entries'][1]['errors_against_truth']['mean_absolute'] < 0.005")" = True ] ||
+    fail "expected the same matter in VTK's picture"
+  [ "$(figure_of out "d['entries'][1]['left_out']")" = "[]" ] || fail "expected nothing left out"
+fi
+run compare sample:smoke --output coloured --extinction 1,2,3 --resolution 32,32 --repetitions 1 --quiet
+expect_success
+[ "$(figure_of coloured "'one opacity' in d['entries'][1]['skipped']")" = True ] ||
+  fail "expected three extinctions to be a reason"
+
+case_ "surfaces"
+if command -v Xvfb > /dev/null; then
+  blob ../blob.nrrd
+  printf '%s\n' ply 'format ascii 1.0' 'element vertex 3' 'property float x' 'property float y' \
+    'property float z' 'element face 1' 'property list uchar int vertex_indices' end_header \
+    '-9 2 -9' '9 2 -9' '0 2 9' '3 0 1 2' > ../wall.ply
+  run compare ../blob.nrrd --output out "${small[@]}" --mesh ../wall.ply
+  expect_success
+  [ "$(figure_of out "max(e['errors_against_truth']['mean_absolute'] for e in d['entries']) < 0.05")" = True ] ||
+    fail "expected all mappers to draw the surface"
+fi
+
 case_ "other files of the folder are kept"
 blob ../blob.nrrd
 mkdir out

@@ -150,3 +150,18 @@ status=$?
 expect_failure 1
 expect_error 'xvfb'
 expect_no_files
+
+case_ "surfaces in fog alone need no volume"
+corner ../front.ply
+run render --mesh ../front.ply --fog-extinction 0.05 --sky-radiance 0.5,0.5,0.5 --output fog.png --stats fog.json "${small[@]}"
+expect_success
+grep -q '"mapper": "fog"' fog.json || fail "expected the statistics of fog"
+run render --mesh ../front.ply --fog-extinction 5 --sky-radiance 0.5,0.5,0.5 --output thick.png "${small[@]}"
+expect_success
+differ fog.png thick.png
+run render --mesh ../front.ply --output a.png
+expect_failure 2
+expect_error '^brume: INPUT: .*--fog-extinction'
+run render --output a.png
+expect_failure 2
+expect_error '^brume: INPUT: '

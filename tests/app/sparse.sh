@@ -70,7 +70,7 @@ run render "$data/blob.vdb" --extinction 0 --output a.png
 expect_failure 2
 run render "$data/blob.vdb" --extinction 1 --mapper vtk-gpu --output a.png
 expect_failure 2
-run compare "$data/blob.vdb" --extinction 1 --output folder
+run compare "$data/blob.vdb" --extinction 1 --preset cloud --output folder
 expect_failure 2
 expect_no_files
 

@@ -19,5 +19,7 @@ void add_light_rows(Scenes& scenes, std::vector<Row>& rows);
 void add_effect_rows(Scenes& scenes, std::vector<Row>& rows);
 /// Large and sparse volumes, and memory.
 void add_memory_rows(Scenes& scenes, std::vector<Row>& rows);
+/// Noise, clouds dense and sparse.
+void add_generator_rows(Scenes& scenes, std::vector<Row>& rows);
 
 }

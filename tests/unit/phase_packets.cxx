@@ -14,6 +14,15 @@ namespace HWY_NAMESPACE
 {
 
 #include "Transport/phase-inl.h"
+#include "Transport/exponential_integral-inl.h"
+
+void packet_e2_target(const float* x, std::size_t count, float* result)
+{
+  for (std::size_t i = 0; i < count; i += lane_count)
+  {
+    hn::StoreU(second_exponential_integral(hn::LoadU(float_tag, x + i)), float_tag, result + i);
+  }
+}
 
 void packet_phase_target(const PhaseModel& model,
   const float* one_minus_cosine,
@@ -37,6 +46,7 @@ HWY_AFTER_NAMESPACE();
 namespace brume
 {
 HWY_EXPORT(packet_phase_target);
+HWY_EXPORT(packet_e2_target);
 }
 
 void packet_phase(const brume::PhaseModel& model,
@@ -48,5 +58,11 @@ void packet_phase(const brume::PhaseModel& model,
   using namespace brume;
   HWY_DYNAMIC_DISPATCH(packet_phase_target)
   (model, one_minus_cosine, one_plus_cosine, count, result);
+}
+
+void packet_second_exponential_integral(const float* x, std::size_t count, float* result)
+{
+  using namespace brume;
+  HWY_DYNAMIC_DISPATCH(packet_e2_target)(x, count, result);
 }
 #endif

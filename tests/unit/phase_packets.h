@@ -1,4 +1,4 @@
-// Phase functions as the kernels have them: in packets of single precision.
+// Phase functions and E₂ as the kernels have them: in packets of single precision.
 #pragma once
 
 #include "Transport/phase.h"
@@ -11,3 +11,6 @@ void packet_phase(const brume::PhaseModel& model,
   const float* one_plus_cosine,
   std::size_t count,
   float* result);
+
+/// E₂ at `count` places, a multiple of 16.
+void packet_second_exponential_integral(const float* x, std::size_t count, float* result);

@@ -1,14 +1,20 @@
 // The generated volumes as VTK pipeline sources.
 #include "vtkBrumeCloudSource.h"
+#include "vtkBrumeFogSource.h"
 #include "vtkBrumePhantomSource.h"
 #include "vtkBrumeSmokeSource.h"
+#include "vtkBrumeSparseVolume.h"
 
+#include "Transport/sparse_voxels.h"
 #include "data-generators/head_ct.h"
+#include "tests/support/source_checks.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkDataArray.h"
+#include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
+#include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
@@ -19,71 +25,7 @@
 #include <sstream>
 #include <vector>
 
-namespace
-{
-
-void count_progress(vtkObject*, unsigned long, void* counter, void*)
-{
-  ++*static_cast<int*>(counter);
-}
-
-void abort_at_once(vtkObject* caller, unsigned long, void*, void*)
-{
-  static_cast<vtkAlgorithm*>(caller)->SetAbortExecute(1);
-}
-
-/// Every voxel of pieces of odd sizes equals that voxel of the whole.
-void expect_pieces_equal_the_whole(vtkImageAlgorithm* whole, vtkImageAlgorithm* parts)
-{
-  whole->Update();
-  vtkImageData* all = whole->GetOutput();
-  int extent[6];
-  all->GetExtent(extent);
-  std::vector<int> cuts[3];
-  for (int a = 0; a < 3; ++a)
-  {
-    const int end = extent[2 * a + 1] + 1;
-    cuts[a] = { 0, end / 3 + 1, end - 2, end };
-  }
-  vtkIdType compared = 0;
-  for (int c = 0; c < 27; ++c)
-  {
-    const int i[3] = { c % 3, c / 3 % 3, c / 9 };
-    int piece[6];
-    for (int a = 0; a < 3; ++a)
-    {
-      piece[2 * a] = cuts[a][i[a]];
-      piece[2 * a + 1] = cuts[a][i[a] + 1] - 1;
-    }
-    parts->UpdateExtent(piece);
-    vtkImageData* part = parts->GetOutput();
-    ASSERT_LE(part->GetNumberOfPoints(), all->GetNumberOfPoints() / 3) << "only the piece was made";
-    for (int z = piece[4]; z <= piece[5]; ++z)
-      for (int y = piece[2]; y <= piece[3]; ++y)
-        for (int x = piece[0]; x <= piece[1]; ++x)
-        {
-          ASSERT_EQ(part->GetScalarComponentAsDouble(x, y, z, 0),
-            all->GetScalarComponentAsDouble(x, y, z, 0))
-            << x << ' ' << y << ' ' << z;
-          ++compared;
-        }
-  }
-  EXPECT_EQ(compared, all->GetNumberOfPoints());
-}
-
-void expect_abort_and_recovery(vtkImageAlgorithm* source)
-{
-  vtkNew<vtkCallbackCommand> abort;
-  abort->SetCallback(abort_at_once);
-  const unsigned long tag = source->AddObserver(vtkCommand::ProgressEvent, abort);
-  source->Update();
-  EXPECT_EQ(source->GetOutput()->GetNumberOfPoints(), 0);
-  source->RemoveObserver(tag);
-  source->Update();
-  EXPECT_GT(source->GetOutput()->GetNumberOfPoints(), 0);
-}
-
-}
+using namespace brume_tests;
 
 TEST(PhantomSource, DescribesItsVolumeBeforeMakingIt)
 {
@@ -177,7 +119,7 @@ TEST(PhantomSource, HoldsItsSettingsToTheirRanges)
   EXPECT_EQ(source->GetSize(), 4096);
   source->SetNoiseLevel(-1.0);
   EXPECT_EQ(source->GetNoiseLevel(), 0.0);
-  source->SetKind(17);
+  source->SetKind(-1);
   EXPECT_EQ(source->GetKind(), static_cast<int>(vtkBrumePhantomSource::KindHeadCT));
   std::ostringstream text;
   source->Print(text);
@@ -280,6 +222,302 @@ TEST(CloudSource, ASettingThatIsNoNumberIsAnError)
   EXPECT_EQ(source->GetOutput()->GetNumberOfPoints(), 0);
 }
 
+namespace
+{
+
+/// The sparse output holds, voxel by voxel, what the dense one does.
+void expect_sparse_equals_dense(vtkBrumeFieldSource* source)
+{
+  source->SparseOff();
+  source->Update();
+  vtkNew<vtkImageData> dense;
+  dense->DeepCopy(source->GetOutput());
+  EXPECT_FALSE(source->GetSparseOutput());
+  source->SparseOn();
+  source->Update();
+  vtkBrumeSparseVolume* sparse = source->GetSparseOutput();
+  ASSERT_TRUE(sparse);
+  EXPECT_FALSE(source->GetOutput());
+  ASSERT_TRUE(sparse->GetVoxels());
+  EXPECT_EQ(sparse->GetName(), "density");
+  const auto& origin = sparse->GetVoxels()->origin();
+  int dimensions[3];
+  dense->GetDimensions(dimensions);
+  vtkIdType active = 0;
+  for (int k = 0; k < dimensions[2]; ++k)
+    for (int j = 0; j < dimensions[1]; ++j)
+      for (int i = 0; i < dimensions[0]; ++i)
+      {
+        const double value = dense->GetScalarComponentAsDouble(i, j, k, 0);
+        active += value != 0.0;
+        ASSERT_EQ(sparse->GetVoxels()->value(i - origin[0], j - origin[1], k - origin[2]), value);
+      }
+  EXPECT_EQ(sparse->GetActiveVoxelCount(), active);
+  const double index[4] = { 3.0, 4.0, 5.0, 1.0 };
+  double place[4];
+  sparse->GetIndexToWorld()->MultiplyPoint(index, place);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    EXPECT_DOUBLE_EQ(
+      place[axis], dense->GetOrigin()[axis] + index[axis] * dense->GetSpacing()[axis]);
+  }
+  source->SparseOff();
+}
+
+/// The first number of the output at a moment that the pipeline asks for, summed.
+double sum_at(vtkImageAlgorithm* source, double time)
+{
+  source->UpdateTimeStep(time);
+  vtkImageData* image = source->GetOutput();
+  EXPECT_EQ(image->GetInformation()->Get(vtkDataObject::DATA_TIME_STEP()), time);
+  double sum = 0.0;
+  for (vtkIdType n = 0; n < image->GetNumberOfPoints(); ++n)
+  {
+    sum += image->GetPointData()->GetScalars()->GetTuple1(n);
+  }
+  return sum;
+}
+
+}
+
+TEST(CloudSource, EachKindComesWithItsDefaults)
+{
+  vtkNew<vtkBrumeCloudSource> source;
+  source->SetCoverage(0.9);
+  source->SetKindToCirrus();
+  EXPECT_EQ(source->GetWidth(), 12000.0);
+  EXPECT_EQ(source->GetBaseHeight(), 8000.0);
+  EXPECT_EQ(source->GetCoverage(), 0.55);
+  source->SetCoverage(0.2);
+  source->SetKind(vtkBrumeCloudSource::KindCirrus); // no other one: nothing changes
+  EXPECT_EQ(source->GetCoverage(), 0.2);
+  source->SetKind(99);
+  EXPECT_EQ(source->GetKind(), static_cast<int>(vtkBrumeCloudSource::KindCumulonimbus));
+  source->SetKindToCumulus();
+  EXPECT_EQ(source->GetWidth(), 2000.0);
+  std::ostringstream text;
+  source->SetKindToStratocumulus();
+  source->Print(text);
+  EXPECT_NE(text.str().find("Kind: Stratocumulus"), std::string::npos);
+  EXPECT_NE(text.str().find("TopHeight: 1500 m"), std::string::npos);
+  EXPECT_NE(text.str().find("Sparse: off"), std::string::npos);
+}
+
+TEST(CloudSource, EveryKindInPiecesAndSparse)
+{
+  for (int kind = 0; kind <= vtkBrumeCloudSource::KindCumulonimbus; ++kind)
+  {
+    vtkNew<vtkBrumeCloudSource> whole;
+    vtkNew<vtkBrumeCloudSource> parts;
+    for (vtkBrumeCloudSource* source : { whole.Get(), parts.Get() })
+    {
+      source->SetKind(kind);
+      source->SetSize(50);
+      source->SetTime(25.0);
+      source->SetTopHeight(source->GetTopHeight() * 1.05);
+    }
+    expect_pieces_equal_the_whole(whole, parts);
+    expect_sparse_equals_dense(whole);
+  }
+}
+
+TEST(CloudSource, LayersFollowTheirHeightsAndCoverage)
+{
+  const auto total = [](void (*change)(vtkBrumeCloudSource*))
+  {
+    vtkNew<vtkBrumeCloudSource> source;
+    source->SetKindToStratocumulus();
+    source->SetSize(64);
+    change(source);
+    source->Update();
+    double sum = 0.0;
+    for (vtkIdType n = 0; n < source->GetOutput()->GetNumberOfPoints(); ++n)
+    {
+      sum += source->GetOutput()->GetPointData()->GetScalars()->GetTuple1(n);
+    }
+    return sum;
+  };
+  const double all = total([](vtkBrumeCloudSource*) {});
+  EXPECT_GT(all, 1.3 * total([](vtkBrumeCloudSource* s) { s->SetCoverage(0.3); }));
+  EXPECT_LT(all, total([](vtkBrumeCloudSource* s) { s->SetTopHeight(1900.0); }));
+  vtkNew<vtkBrumeCloudSource> source;
+  source->SetKindToStratocumulus();
+  source->SetBaseHeight(1000.0);
+  source->UpdateInformation();
+  double origin[3];
+  source->GetOutputInformation(0)->Get(vtkDataObject::ORIGIN(), origin);
+  EXPECT_NEAR(origin[2], 950.0, 32.0);
+}
+
+TEST(CloudSource, IsToldTheTimeByThePipeline)
+{
+  vtkNew<vtkBrumeCloudSource> source;
+  source->SetSize(40);
+  source->SetEndTime(90.0);
+  source->SetNumberOfTimeSteps(4);
+  source->UpdateInformation();
+  vtkInformation* info = source->GetOutputInformation(0);
+  ASSERT_EQ(info->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()), 4);
+  EXPECT_EQ(info->Get(vtkStreamingDemandDrivenPipeline::TIME_STEPS())[2], 60.0);
+  EXPECT_EQ(info->Get(vtkStreamingDemandDrivenPipeline::TIME_RANGE())[1], 90.0);
+  const double at_60 = sum_at(source, 60.0);
+  EXPECT_NE(at_60, sum_at(source, 0.0));
+  EXPECT_NE(at_60, sum_at(source, 61.5)) << "between the steps, too";
+  EXPECT_EQ(at_60, sum_at(source, 60.0));
+}
+
+TEST(CloudSource, SparseCanBeAborted)
+{
+  vtkNew<vtkBrumeCloudSource> source;
+  source->SetSize(64);
+  source->SparseOn();
+  vtkNew<vtkCallbackCommand> abort;
+  abort->SetCallback(abort_at_once);
+  const unsigned long tag = source->AddObserver(vtkCommand::ProgressEvent, abort);
+  source->Update();
+  EXPECT_FALSE(source->GetSparseOutput()->GetVoxels());
+  source->RemoveObserver(tag);
+  source->Update();
+  EXPECT_TRUE(source->GetSparseOutput()->GetVoxels());
+}
+
+TEST(FogSource, EveryKindInPiecesAndSparse)
+{
+  for (int kind = 0; kind <= vtkBrumeFogSource::KindValley; ++kind)
+  {
+    vtkNew<vtkBrumeFogSource> whole;
+    vtkNew<vtkBrumeFogSource> parts;
+    for (vtkBrumeFogSource* source : { whole.Get(), parts.Get() })
+    {
+      source->SetKind(kind);
+      source->SetSize(60);
+    }
+    expect_pieces_equal_the_whole(whole, parts);
+    expect_sparse_equals_dense(whole);
+    double range[2];
+    whole->Update();
+    whole->GetOutput()->GetScalarRange(range);
+    EXPECT_GT(range[1], 0.7);
+  }
+}
+
+TEST(FogSource, EverySettingMakesOtherFog)
+{
+  const auto total = [](int kind, void (*change)(vtkBrumeFogSource*))
+  {
+    vtkNew<vtkBrumeFogSource> source;
+    source->SetKind(kind);
+    source->SetSize(48);
+    source->SetTime(100.0);
+    change(source);
+    source->Update();
+    double sum = 0.0;
+    for (vtkIdType n = 0; n < source->GetOutput()->GetNumberOfPoints(); ++n)
+    {
+      sum += source->GetOutput()->GetPointData()->GetScalars()->GetTuple1(n);
+    }
+    return sum;
+  };
+  for (const int kind : { vtkBrumeFogSource::KindHeight, vtkBrumeFogSource::KindValley })
+  {
+    const double usual = total(kind, [](vtkBrumeFogSource*) {});
+    EXPECT_EQ(usual, total(kind, [](vtkBrumeFogSource* s) { s->SetSeed(1); }));
+    EXPECT_NE(usual, total(kind, [](vtkBrumeFogSource* s) { s->SetSeed(2); }));
+    EXPECT_NE(usual, total(kind, [](vtkBrumeFogSource* s) { s->SetTime(300.0); }));
+    EXPECT_NE(usual, total(kind, [](vtkBrumeFogSource* s) { s->SetWidth(3000.0); }));
+    EXPECT_LT(usual, total(kind, [](vtkBrumeFogSource* s) { s->SetNoise(0.2); }));
+    EXPECT_NE(usual, total(kind, [](vtkBrumeFogSource* s) { s->SetDetailSize(300.0); }));
+    EXPECT_NE(usual, total(kind, [](vtkBrumeFogSource* s) { s->SetOctaves(2); }));
+    EXPECT_NE(usual, total(kind, [](vtkBrumeFogSource* s) { s->SetWind(0.0, 5.0, 0.0); }));
+  }
+  const double height = total(vtkBrumeFogSource::KindHeight, [](vtkBrumeFogSource*) {});
+  EXPECT_LT(height,
+    total(vtkBrumeFogSource::KindHeight, [](vtkBrumeFogSource* s) { s->SetScaleHeight(150.0); }));
+  EXPECT_NE(height,
+    total(vtkBrumeFogSource::KindHeight, [](vtkBrumeFogSource* s) { s->SetTopHeight(700.0); }));
+  EXPECT_GT(height,
+    total(vtkBrumeFogSource::KindHeight, [](vtkBrumeFogSource* s) { s->SetBaseHeight(250.0); }));
+  const double valley = total(vtkBrumeFogSource::KindValley, [](vtkBrumeFogSource*) {});
+  EXPECT_LT(valley,
+    total(vtkBrumeFogSource::KindValley, [](vtkBrumeFogSource* s) { s->SetCoverage(0.8); }));
+  EXPECT_GT(valley,
+    total(vtkBrumeFogSource::KindValley, [](vtkBrumeFogSource* s) { s->SetSoftness(120.0); }));
+  EXPECT_LT(
+    valley, total(vtkBrumeFogSource::KindValley, [](vtkBrumeFogSource* s) { s->SetSink(90.0); }));
+  EXPECT_NE(valley,
+    total(vtkBrumeFogSource::KindValley, [](vtkBrumeFogSource* s) { s->SetRelief(900.0); }));
+}
+
+TEST(FogSource, TakesAHeightMapAndHandsItOut)
+{
+  // A slope along x, whose lower half is to be under fog.
+  vtkNew<vtkImageData> slope;
+  slope->SetExtent(3, 43, -5, 5, 7, 7);
+  slope->SetOrigin(-2300.0, 0.0, 0.0);
+  slope->SetSpacing(100.0, 400.0, 1.0);
+  vtkNew<vtkFloatArray> heights;
+  for (int n = 0; n < 41 * 11; ++n)
+  {
+    heights->InsertNextValue(static_cast<float>(n % 41 * 10));
+  }
+  slope->GetPointData()->SetScalars(heights);
+  vtkNew<vtkBrumeFogSource> source;
+  source->SetInputData(slope);
+  source->SetKindToValley();
+  source->SetNoise(0.0);
+  source->SetCoverage(0.5);
+  source->SetSize(100);
+  source->Update();
+  const auto value_at = [&](double x, double z)
+  {
+    vtkImageData* image = source->GetOutput();
+    return image->GetPointData()->GetScalars()->GetTuple1(image->FindPoint(x, 0.0, z));
+  };
+  // The map spans x from -2000 to 2000, heights from 0 to 400; the level is 200.
+  EXPECT_EQ(value_at(-1900.0, 100.0), 1.0);
+  EXPECT_EQ(value_at(1500.0, 190.0), 0.0);
+  EXPECT_EQ(source->GetOutput()->FindPoint(0.0, 0.0, 390.0), -1) << "no fog, no box";
+  vtkNew<vtkImageData> ground;
+  source->GetGround(ground);
+  EXPECT_EQ(ground->GetNumberOfPoints(), 41 * 11);
+  EXPECT_DOUBLE_EQ(ground->GetOrigin()[0], -2000.0);
+  EXPECT_EQ(ground->GetPointData()->GetScalars()->GetTuple1(40), 400.0);
+
+  // Another height, other fog; and a map of two layers is none.
+  heights->FillValue(50.0f);
+  heights->SetValue(0, 0.0f);
+  heights->Modified();
+  slope->Modified();
+  source->Update();
+  EXPECT_LT(source->GetOutput()->GetBounds()[5], 60.0);
+  slope->SetExtent(3, 43, -5, 5, 7, 8);
+  slope->GetPointData()->Initialize();
+  slope->AllocateScalars(VTK_FLOAT, 1);
+  vtkNew<vtkCallbackCommand> counter;
+  int errors = 0;
+  counter->SetCallback(count_progress);
+  counter->SetClientData(&errors);
+  source->AddObserver(vtkCommand::ErrorEvent, counter);
+  source->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, counter);
+  source->Update();
+  EXPECT_GT(errors, 0);
+}
+
+TEST(FogSource, CanBeAbortedAndHoldsItsSettings)
+{
+  vtkNew<vtkBrumeFogSource> source;
+  source->SetSize(64);
+  expect_abort_and_recovery(source);
+  source->SetNoise(7.0);
+  EXPECT_EQ(source->GetNoise(), 1.0);
+  source->SetKind(12);
+  EXPECT_EQ(source->GetKind(), static_cast<int>(vtkBrumeFogSource::KindValley));
+  std::ostringstream text;
+  source->Print(text);
+  EXPECT_NE(text.str().find("Kind: Valley"), std::string::npos);
+  EXPECT_NE(text.str().find("ScaleHeight: 90 m"), std::string::npos);
+}
+
 TEST(SmokeSource, GivesDensityAndTemperature)
 {
   vtkNew<vtkBrumeSmokeSource> source;
@@ -355,8 +593,10 @@ TEST(SmokeSource, EverySettingMakesOtherSmoke)
   wide->SetWidth(8.0);
   wide->Update();
   EXPECT_DOUBLE_EQ(wide->GetOutput()->GetSpacing()[0], 0.4);
-  const std::vector<double> hot = totals([](vtkBrumeSmokeSource* s) { s->SetSourceTemperature(2500.0); });
-  const std::vector<double> cold = totals([](vtkBrumeSmokeSource* s) { s->SetAirTemperature(250.0); });
+  const std::vector<double> hot =
+    totals([](vtkBrumeSmokeSource* s) { s->SetSourceTemperature(2500.0); });
+  const std::vector<double> cold =
+    totals([](vtkBrumeSmokeSource* s) { s->SetAirTemperature(250.0); });
   EXPECT_EQ(usual[0], hot[0]);
   EXPECT_LT(usual[1], hot[1]);
   EXPECT_EQ(usual[0], cold[0]);

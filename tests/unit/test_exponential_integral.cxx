@@ -1,3 +1,5 @@
+#include "phase_packets.h"
+
 #include "Transport/exponential_integral.h"
 
 #include <boost/math/special_functions/expint.hpp>
@@ -5,6 +7,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 using brume::exponential_integral_2;
 
@@ -55,4 +58,26 @@ TEST(ExponentialIntegral, EndsAreFinite)
   EXPECT_EQ(exponential_integral_2(1e6), 0.0);
   EXPECT_EQ(exponential_integral_2(std::numeric_limits<double>::infinity()), 0.0);
   EXPECT_TRUE(std::isnan(exponential_integral_2(std::numeric_limits<double>::quiet_NaN())));
+}
+
+// As the kernels have it, in packets of single precision.
+TEST(ExponentialIntegral, PacketsAgree)
+{
+  std::vector<float> x{ 0.0f, 1e-30f, 1e-8f, 0.999999f, 1.0f, 1.000001f, 80.0f, 1e30f };
+  for (float at = 1e-6f; at < 30.0f; at *= 1.01f)
+  {
+    x.push_back(at);
+  }
+  x.resize((x.size() + 15) / 16 * 16, 0.5f);
+  std::vector<float> result(x.size());
+  packet_second_exponential_integral(x.data(), x.size(), result.data());
+  for (std::size_t i = 0; i < x.size(); ++i)
+  {
+    const double truth = exponential_integral_2(x[i]);
+    EXPECT_NEAR(result[i], truth, 1e-6) << "at " << x[i];
+    if (x[i] >= 1.0f)
+    {
+      EXPECT_NEAR(result[i], truth, 3e-6 * truth + 1e-37) << "at " << x[i];
+    }
+  }
 }

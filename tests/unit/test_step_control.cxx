@@ -114,4 +114,22 @@ TEST(ChooseStep, MetMeansMet)
   }
 }
 
+// Where no light volume does, rays through one density go cell by cell, whatever was tried before.
+TEST(ChooseShadows, RaysThroughOneDensityAreExact)
+{
+  const Voxels<float> voxels = ball(0.5);
+  Scene scene = scene_of(voxels, 3.0);
+  scene.volumes[0].meaning = ValueMeaning::Density;
+  scene.volumes[0].density.extinction = 4.0;
+  scene.volumes[0].medium.lit = true;
+  Light sun;
+  sun.direction = glm::normalize(glm::dvec3(-0.6, 0.35, -0.7));
+  scene.lights = { sun };
+  Marcher marcher;
+  const ShadowChoice choice = choose_shadows(marcher, scene, 1.1e-4);
+  EXPECT_EQ(choice.method, ShadowMethod::Rays);
+  EXPECT_EQ(choice.step, 0.0);
+  EXPECT_TRUE(choice.met);
+}
+
 }
