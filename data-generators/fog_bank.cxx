@@ -113,7 +113,7 @@ double FogBank::lowest_ground(const Box& box) const
     const auto square_of = [&](double x, double margin)
     {
       const double at = (x - map.origin[a]) / map.spacing[a] + margin;
-      return static_cast<int>(std::clamp(at / square, 0.0, squares[a] - 1.0));
+      return at > 0.0 ? static_cast<int>(std::min(at / square, squares[a] - 1.0)) : 0;
     };
     first[a] = square_of(box.lower[a], -0.01);
     last[a] = square_of(box.upper[a], 0.01);

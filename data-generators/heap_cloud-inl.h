@@ -73,15 +73,33 @@ private:
   int m_count = 0;
 };
 
-/// Half gradient fBm, half billows (four octaves at most), its middle stretched over [0, 1].
+/// Half gradient fBm, half billows (four octaves at most), its middle stretched over [0, 1]:
+/// billow_fbm() and fbm() with the lattice cells of each octave found once.
 BRUME_LANES_INLINE Real cloud_noise(const Place& at, std::uint32_t seed, int octaves)
 {
-  const NoisePeriod never(0);
-  const Real billows =
-    sum_octaves<Octave::Billow>(at, substream(seed, 2), { std::min(octaves, 4), 2.0, 0.5 }, never);
-  const Real gradients =
-    sum_octaves<Octave::Perlin>(at, substream(seed, 3), { octaves, 2.0, 0.5 }, never);
-  const Real sum = real(0.5f) * (billows + (real(0.5f) + real(0.5f) * gradients));
+  const std::uint32_t billow_seed = substream(seed, 2), gradient_seed = substream(seed, 3);
+  Wide billows = wide(0.0), gradients = wide(0.0);
+  double frequency = 1.0, amplitude = 1.0, billow_weight = 0.0, gradient_weight = 0.0;
+  for (int octave = 0; octave < octaves; ++octave)
+  {
+    const auto stream = static_cast<std::uint32_t>(octave);
+    const Cell cell = find_cell(scaled(at, glm::dvec3(frequency)), glm::dvec3(0.0));
+    if (octave < 4)
+    {
+      const Real billow =
+        select(cell.valid, real(1.0f) - worley_in(cell, substream(billow_seed, stream)), real(0.0f));
+      billows = billows + wide(amplitude) * widen(billow);
+      billow_weight += amplitude;
+    }
+    gradients =
+      gradients + wide(amplitude) * widen(perlin_in(cell, substream(gradient_seed, stream)));
+    gradient_weight += amplitude;
+    frequency *= 2.0;
+    amplitude *= 0.5;
+  }
+  const Real sum =
+    real(0.5f) * (narrow(billows / wide(billow_weight)) +
+                   (real(0.5f) + real(0.5f) * narrow(gradients / wide(gradient_weight))));
   return straight(sum, 0.33f, 1.0f / 0.3f);
 }
 

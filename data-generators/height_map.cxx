@@ -40,8 +40,10 @@ HeightMap HeightMap::from(const std::function<double(double x, double y)>& groun
 
 float HeightMap::at(double x, double y) const
 {
-  const double u = std::clamp((x - origin.x) / spacing.x, 0.0, dimensions.x - 1.0);
-  const double v = std::clamp((y - origin.y) / spacing.y, 0.0, dimensions.y - 1.0);
+  const auto along = [](double at, int count) // what is no number counts as the first place
+  { return at > 0.0 ? std::min(at, count - 1.0) : 0.0; };
+  const double u = along((x - origin.x) / spacing.x, dimensions.x);
+  const double v = along((y - origin.y) / spacing.y, dimensions.y);
   const int i = std::min(static_cast<int>(u), dimensions.x - 2);
   const int j = std::min(static_cast<int>(v), dimensions.y - 2);
   const float* row = heights.data() + static_cast<std::size_t>(j) * dimensions.x + i;

@@ -69,7 +69,8 @@ PuffHeap::PuffHeap(const std::vector<Puff>& puffs, const Box& box, double reach)
 
 int PuffHeap::cell_of(double x, int axis) const
 {
-  return static_cast<int>(std::clamp((x - m_box.lower[axis]) * m_scale[axis], 0.0, cells - 1.0));
+  const double at = (x - m_box.lower[axis]) * m_scale[axis];
+  return at > 0.0 ? static_cast<int>(std::min(at, cells - 1.0)) : 0; // and 0 for what is no number
 }
 
 double PuffHeap::most_in(const Box& box) const

@@ -28,40 +28,7 @@ HWY_INLINE Real mean_transmittance_of(Real x)
 }
 #include "Transport/fog-inl.h"
 #include "Transport/exponential_integral-inl.h"
-
-/// What a packet gathers of lit media: also the transmittances of G and B.
-struct LitGathered : Gathered
-{
-  Real through[3];
-  Sum depths[3]; ///< of a grey medium the first alone
-  bool coloured = false;
-
-  HWY_INLINE const Sum& depth_of(int c) const { return depths[coloured ? c : 0]; }
-
-  HWY_INLINE LitGathered()
-    : Gathered()
-    , through{ real(1.0f), real(1.0f), real(1.0f) }
-  {
-  }
-};
-
-/// A number of each channel; of a grey medium the three are one.
-template <bool Chromatic>
-struct Channels;
-template <>
-struct Channels<true>
-{
-  Real value[3];
-  HWY_INLINE Real& operator[](int c) { return value[c]; }
-  HWY_INLINE Real operator[](int c) const { return value[c]; }
-};
-template <>
-struct Channels<false>
-{
-  Real value;
-  HWY_INLINE Real& operator[](int) { return value; }
-  HWY_INLINE Real operator[](int) const { return value; }
-};
+#include "Transport/lit_parts-inl.h"
 
 /// Single: one grid of densities. Chromatic: its channels differ. Rich: there is more to it than
 /// lights at infinity and one octave: lamps, octaves, sky, emission, powder. Foggy: there is fog. In
@@ -199,7 +166,6 @@ public:
   }
 
 private:
-  static constexpr int lamp_points = 3;
   static constexpr int steps_at_once = Single ? samples_between_leaps : 1;
   static constexpr int most_pieces = Single ? 1 : most_volumes + (Foggy ? 1 : 0);
 
@@ -745,94 +711,19 @@ private:
     return transform(Lit.lights[l].offset_from_index, rays.lines[0].at(position));
   }
 
-  /// What a lamp sends to a stretch, at three places of it: those of Gauss and Legendre, evenly over
-  /// the stretch, or, where the light weakens with the square of the distance d, over the angle that
-  /// the lamp sees it under. With b the way from the place nearest to the lamp, δ its distance and
-  /// r² = δ² + a / c,
-  ///     ∫ f ds / (a + c d²) = 1 / (c r) ∫ f dφ,    s = r tan φ,
-  /// which stays right when the ray runs through the lamp.
   HWY_INLINE void find_lamp(const Rays& rays, const Stretch& stretch, int l)
   {
-    const ShadeLight& light = Lit.lights[l].source;
-    const Real zero = hn::Zero(float_tag);
-    const Real one = real(1.0f);
-    const Real half = real(0.5f);
-    const Vec3<Real> offset = lamp_offset(rays, stretch.middle, l);
-    const Real middle = hn::Neg(dot(offset, Viewer));
-    const Vec3<Real> nearest = offset + Viewer * middle;
-    const Real length = (stretch.high - stretch.low) * rays.step_world;
-    const Mask some = length > zero;
-    const Real inverse_length = hn::IfThenElseZero(some, one / hn::IfThenElse(some, length, one));
-    const Real begin = hn::NegMulAdd(length, half, middle);
-    const Real square = dot(nearest, nearest);
-    const float constant_part = light.attenuation[0];
-    const float linear_part = light.attenuation[1];
-    const float square_part = light.attenuation[2];
-    const bool by_angle = square_part > 0.0f;
-    // A ray through the lamp itself would be infinitely bright there.
-    const Real least = max(length * length * real(1e-10f), real(1e-30f));
-    const Real r2 = max(square + real(by_angle ? constant_part / square_part : 0.0f), least);
-    const Real inverse = rsqrt_or_zero(r2);
-    const Real r = r2 * inverse;
-    Real low = zero;
-    Real angle = zero;
-    if (by_angle)
-    {
-      low = hn::Atan(float_tag, begin * inverse);
-      // atan2(h r, r² + b² − h²/4), in (0, π): what the difference of two angles would have lost.
-      const Real y = length * r;
-      const Real x = hn::MulAdd(middle, middle, r2) - length * length * real(0.25f);
-      const Mask steep = hn::Abs(x) < y;
-      const Real denominator = hn::IfThenElse(steep, y, x);
-      const Mask any = hn::Abs(denominator) > zero;
-      const Real slope = hn::Atan(float_tag,
-        hn::IfThenElse(steep, x, y) / hn::IfThenElse(any, denominator, one));
-      const Real pi = real(3.14159265f);
-      angle = hn::IfThenElse(
-        steep, pi * half - slope, hn::IfThenElse(x < zero, slope + pi, slope));
-    }
-    const auto distance = [&](Real s) { return hn::Sqrt(hn::MulAdd(s, s, square)); };
-    const Real first = distance(begin);
-    const Real last = distance(begin + length);
-    const Real both = first + last;
-    Lamps.set(lamp_index(l, 0), one / max(both, real(1e-30f)));
+    LampStretch lamp;
+    find_lamp_points(Lit.lights[l].source, lamp_offset(rays, stretch.middle, l), Viewer,
+      (stretch.high - stretch.low) * rays.step_world, lamp);
+    Lamps.set(lamp_index(l, 0), lamp.inverse_of_ends);
     for (int i = 0; i < lamp_points; ++i)
     {
-      constexpr float places[lamp_points] = { 0.11270167f, 0.5f, 0.88729833f };
-      constexpr float weights[lamp_points] = { 5.0f / 18.0f, 8.0f / 18.0f, 5.0f / 18.0f };
-      Real s = hn::MulAdd(length, real(places[i]), begin);
-      if (by_angle)
-      {
-        const Real at = hn::MulAdd(angle, real(places[i]), low);
-        const Real cosine = hn::Cos(float_tag, at);
-        s = r * hn::Sin(float_tag, at) / max(cosine, real(1e-7f));
-        s = clamp(s, begin, begin + length);
-      }
-      const Real along = (s - begin) * inverse_length;
-      const Real d = distance(s);
-      const Vec3<Real> away = nearest - Viewer * s;
-      const Vec3<Real> travel = away * rsqrt_or_zero(dot(away, away));
-      const Real square_term = real(square_part) * d * d + real(constant_part);
-      const Real whole = hn::MulAdd(real(linear_part), d, square_term);
-      Real strength;
-      if (by_angle)
-      {
-        strength = angle * inverse * inverse_length * real(1.0f / square_part);
-        if (linear_part != 0.0f)
-        {
-          strength = strength * square_term / max(whole, real(1e-12f));
-        }
-      }
-      else
-      {
-        strength = one / max(whole, real(1e-12f));
-      }
-      strength = strength * real(weights[i]) * cone_factor<Real>(light, travel);
-      Lamps.set(lamp_index(l, 1 + 3 * i), strength);
-      Lamps.set(lamp_index(l, 2 + 3 * i), along);
-      // How much further off the place is than if the distance ran evenly.
-      Lamps.set(lamp_index(l, 3 + 3 * i), d - lerp(first, last, along));
-      find_phases(l, travel, i);
+      const LampPoint& point = lamp.points[i];
+      Lamps.set(lamp_index(l, 1 + 3 * i), point.strength);
+      Lamps.set(lamp_index(l, 2 + 3 * i), point.along);
+      Lamps.set(lamp_index(l, 3 + 3 * i), point.further);
+      find_phases(l, point.travel, i);
     }
   }
   HWY_INLINE std::size_t lamp_index(int l, int i) const
@@ -944,23 +835,9 @@ private:
     Vec3<Real> source = broadcast3<Real>(medium.emission);
     if (medium.black_body)
     {
-      const BlackBodyTable& table = *medium.black_body;
       Real value;
       Temperatures[k].values(medium.temperature, rays.lines[k], &stretch.middle, 1, &value);
-      const Real at = clamp(value * real(medium.temperature_scale * table.scale),
-        hn::Zero(float_tag), real(static_cast<float>(table.intervals)));
-      const Int index = hn::Min(hn::ConvertTo(int_tag, at), integer(table.intervals - 1));
-      const Real fraction = at - hn::ConvertTo(float_tag, index);
-      const Int offset = hn::ShiftLeft<2>(index);
-      const float* nodes = &table.nodes[0].red;
-      Real body[3];
-      for (int c = 0; c < 3; ++c)
-      {
-        body[c] = lerp(hn::GatherIndex(float_tag, nodes + c, offset),
-          hn::GatherIndex(float_tag, nodes + c + 4, offset), fraction);
-      }
-      const Real scale = real(medium.black_body_scale);
-      source = source + Vec3<Real>{ body[0] * scale, body[1] * scale, body[2] * scale };
+      source = source + black_body_of(medium, value);
     }
     source = source * weight;
     const Real emitted[3] = { source.x, source.y, source.z };
@@ -978,28 +855,14 @@ private:
     bool classified) const
   {
     const LitVolume& medium = Lit.volumes[k];
-    const Real zero = hn::Zero(float_tag);
-    const Real one = real(1.0f);
-    const Mask some = piece.length > zero;
-    const Real mean = piece.amount / hn::IfThenElse(some, piece.length, one);
+    const Mask some = piece.length > hn::Zero(float_tag);
+    const Real mean = piece.amount / hn::IfThenElse(some, piece.length, real(1.0f));
     const Real value =
       classified ? opacity_from_optical_depth(mean * real(medium.unit_distance)) : mean;
-    const Real d = clamp(value * real(medium.powder_scale), zero, one);
-    const Real strength = real(medium.powder_strength);
-    if (medium.powder_form == Powder::Form::Exponential)
-    {
-      return one - strength * hn::Exp(float_tag, d * real(-2.0f));
-    }
     const float normal[3] = { medium.height[0], medium.height[1], medium.height[2] };
-    const Real h = clamp(
-      dot(broadcast3<Real>(normal), rays.lines[k].at(stretch.middle)) + real(medium.height[3]),
-      zero, one);
-    const Real exponent = clamp(
-      hn::MulAdd(h - real(0.3f), real(0.5f / 0.6f), real(0.5f)), real(0.5f), one);
-    const Real base = clamp(hn::MulAdd(h, real(0.2f / 0.3f), real(0.8f)), real(0.8f), one);
-    const Real power = hn::Exp(float_tag, exponent * hn::Log(float_tag, max(d, real(1e-30f))));
-    const Real lower = hn::Exp(float_tag, real(0.8f) * hn::Log(float_tag, base));
-    return one - clamp(strength * power, zero, one) * lower;
+    const Real height =
+      dot(broadcast3<Real>(normal), rays.lines[k].at(stretch.middle)) + real(medium.height[3]);
+    return powder_of(medium, value, height);
   }
 
   /// Surface-like shading, its lights dimmed by the matter on their way.

@@ -196,6 +196,33 @@ TEST(CloudKinds, HoldTheirBoundsAndLeaveTheirFacesEmpty)
   }
 }
 
+TEST(CloudKinds, StrangePlacesAndBoxesAreNoTrouble)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double inf = std::numeric_limits<double>::infinity();
+  std::vector<std::unique_ptr<brume::Field>> fields;
+  for (const CloudKind kind : all_kinds())
+  {
+    fields.push_back(usual(kind));
+  }
+  brume::FogOptions valley;
+  valley.kind = FogKind::Valley;
+  fields.push_back(std::make_unique<brume::FogBank>(valley));
+  for (const std::unique_ptr<brume::Field>& field : fields)
+  {
+    for (const double odd : { nan, inf, -inf, 1e300, -1e18 })
+    {
+      for (const dvec3& p : { dvec3(odd, 0, 500), dvec3(0, odd, 500), dvec3(0, 0, odd) })
+      {
+        EXPECT_EQ(field->value(p, 0.0), 0.0f);
+        EXPECT_GE(field->range_in({ p, p }, 0.0).upper, 0.0f);
+      }
+      EXPECT_LE(field->value({ 10, 20, 1000 }, odd), 1.0f);
+    }
+  }
+  EXPECT_TRUE(std::isfinite(brume::valley_terrain(1, 100.0, 5.0).at(nan, inf)));
+}
+
 TEST(CloudKinds, LieBetweenTheirBaseAndTheirTop)
 {
   for (const CloudKind kind : all_kinds())
