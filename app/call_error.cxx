@@ -23,23 +23,42 @@ std::string shortened(std::string text)
   return text;
 }
 
-/// The subcommand that was called, or the program itself.
+/// The innermost subcommand that was called, or the program itself.
 const CLI::App& called(const CLI::App& program)
 {
   const std::vector<CLI::App*> subcommands = program.get_subcommands();
-  return subcommands.empty() ? program : *subcommands.front();
+  return subcommands.empty() ? program : called(*subcommands.front());
+}
+
+/// "brume generate cumulus"
+std::string call_of(const CLI::App& app)
+{
+  return app.get_parent() ? call_of(*app.get_parent()) + " " + app.get_name() : "brume";
+}
+
+/// The words that a parse left over, of the program and of the subcommands that were called.
+std::vector<std::string> left_over(const CLI::App& app)
+{
+  const std::vector<CLI::App*> subcommands = app.get_subcommands();
+  std::vector<std::string> rest =
+    subcommands.empty() ? std::vector<std::string>() : left_over(*subcommands.front());
+  const std::vector<std::string> own = app.remaining();
+  rest.insert(rest.end(), own.begin(), own.end());
+  return rest;
+}
+
+/// Whether a word that is no option should have been a subcommand.
+bool wants_subcommand(const CLI::App& app)
+{
+  return !app.get_subcommands({}).empty();
 }
 
 /// The first argument that belongs to nothing, an option before anything else. Empty when there is
 /// none. A parse that fails may leave words in the program or in its subcommand.
 std::string unknown_argument(const CLI::App& program)
 {
-  std::vector<std::string> rest = called(program).remaining();
-  for (const std::string& word : program.remaining())
-  {
-    rest.push_back(word);
-  }
-  if (&called(program) == &program && !rest.empty() && rest.front()[0] != '-')
+  const std::vector<std::string> rest = left_over(program);
+  if (wants_subcommand(called(program)) && !rest.empty() && rest.front()[0] != '-')
   {
     return rest.front(); // what should have been a subcommand; the rest would belong to it
   }
@@ -55,15 +74,23 @@ std::string unknown_argument(const CLI::App& program)
 std::string unknown(const CLI::App& program, const std::string& word)
 {
   const bool option = word[0] == '-';
-  if (&called(program) == &program && !option)
+  std::vector<std::string> names;
+  if (!option && wants_subcommand(called(program)))
   {
-    return word + ": there is no such subcommand";
+    const auto subcommands = called(program).get_subcommands({});
+    for (const CLI::App* known : subcommands)
+    {
+      names.push_back(known->get_name());
+    }
+    const std::string nearest = nearest_name(word, names);
+    return word + ": there is no such " +
+      (subcommands.front()->get_group() == "Kinds" ? "kind" : "subcommand") +
+      (nearest.empty() ? "" : ", perhaps " + nearest);
   }
   if (!option)
   {
     return word + ": one argument too many";
   }
-  std::vector<std::string> names;
   for (const CLI::Option* known : called(program).get_options())
   {
     for (const std::string& name : known->get_lnames())
@@ -151,10 +178,7 @@ std::string what_is_wrong(const CLI::App& program, const CLI::ParseError& error)
 
 std::string describe_call_error(const CLI::App& program, const CLI::ParseError& error)
 {
-  const CLI::App& app = called(program);
-  const std::string help =
-    &app == &program ? "brume --help" : "brume " + app.get_name() + " --help";
-  return shortened(what_is_wrong(program, error)) + ": see " + help;
+  return shortened(what_is_wrong(program, error)) + ": see " + call_of(called(program)) + " --help";
 }
 
 }

@@ -46,6 +46,8 @@ public:
 // Each subcommand declares its options on the program and the callback that runs it; one file each.
 // A callback returns when it is done and throws Failure when it cannot do its work.
 void add_compare(CLI::App& program);
+void add_convert(CLI::App& program);
+void add_generate(CLI::App& program);
 void add_info(CLI::App& program);
 void add_plan(CLI::App& program);
 void add_render(CLI::App& program);

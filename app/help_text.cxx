@@ -99,9 +99,10 @@ std::string HelpText::make_usage(const CLI::App* app, std::string name) const
       out += " --" + option->get_lnames().front() + ' ' + option->get_type_name();
     }
   }
-  if (!app->get_subcommands({}).empty())
+  const std::vector<const CLI::App*> subcommands = app->get_subcommands({});
+  if (!subcommands.empty())
   {
-    out += " SUBCOMMAND";
+    out += subcommands.front()->get_group() == "Kinds" ? " KIND" : " SUBCOMMAND";
   }
   return out + " [OPTIONS]\n";
 }

@@ -1,6 +1,8 @@
 // brume info INPUT: what a volume is, before anything is drawn.
 #include "command.h"
 #include "input.h"
+#include "optical_depth.h"
+#include "option_checks.h"
 #include "output_check.h"
 #include "scene_options.h"
 #include "volume_summary.h"
@@ -21,6 +23,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -39,6 +42,7 @@ struct Options
   std::string input;
   InputChoice choice;
   std::string json;
+  double extinction = 0.0; ///< 0: the values are not said to be a density
   bool quiet = false;
 };
 
@@ -213,6 +217,21 @@ Json describe(const Input& input, const VolumeSummary& summary)
   return j;
 }
 
+/// How deep the values are as a density.
+void add_optical_depth(const Input& input, double extinction, Json& j)
+{
+  const std::array<AxisDepth, 3> depths = input.sparse
+    ? optical_depths(input.sparse.Get(), extinction)
+    : optical_depths(input.image.Get(), extinction);
+  Json axes = Json::array();
+  for (const AxisDepth& depth : depths)
+  {
+    axes.push_back({ { "lines", depth.lines }, { "median", finite(depth.median) },
+      { "largest", finite(depth.largest) } });
+  }
+  j["optical_depth"] = { { "extinction", extinction }, { "axes", axes } };
+}
+
 std::string value_text(const Json& value, const std::string& unit)
 {
   return (value.is_null() ? "not finite" : number(value.get<double>())) +
@@ -299,7 +318,20 @@ void print(std::ostream& out, const Json& j, const VolumeSummary& summary)
   if (!percentiles.empty())
   {
     line("percentiles", percentiles);
-    out << "histogram (bars: logarithm of the count)\n" << draw_histogram(summary);
+    out << "histogram (bars: logarithm of the count)\n" << draw_histogram(summary, 72, terminal_takes_utf8());
+  }
+  if (j.contains("optical_depth"))
+  {
+    const Json& depth = j["optical_depth"];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const Json& along = depth["axes"][axis];
+      line(axis == 0 ? "optical depth" : "",
+        std::string("along axis ") + "ijk"[axis] + ": median " +
+          number(along["median"].get<double>()) + ", largest " +
+          number(along["largest"].get<double>()) + ", of " +
+          std::to_string(along["lines"].get<std::uint64_t>()) + " lines of voxels that meet matter");
+    }
   }
   for (const Json& message : j["messages"])
   {
@@ -314,8 +346,11 @@ void run(const Options& options)
   const Input input = open_input_with_bar(options.input, options.choice, options.quiet);
   const VolumeSummary summary =
     input.sparse ? summarize(input.sparse.Get()) : summarize(input.image.Get());
-  const Json description =
-    input.sparse ? describe_sparse(input, summary) : describe(input, summary);
+  Json description = input.sparse ? describe_sparse(input, summary) : describe(input, summary);
+  if (options.extinction > 0.0)
+  {
+    add_optical_depth(input, options.extinction, description);
+  }
   if (!options.json.empty())
   {
     // A name may hold bytes that are no UTF-8: they are replaced, not an error.
@@ -332,11 +367,19 @@ void add_info(CLI::App& program)
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("info",
     "Tell what a volume is: size, spacing, orientation, values and their histogram");
+  options->choice.level_set = "distance";
   add_input(*command, options->input, options->choice);
   command->add_option("--json", options->json, "Write the same, as JSON, to FILE")
     ->type_name("FILE");
+  command
+    ->add_option("--extinction", options->extinction,
+      "Take the values for a density and tell its optical depth along the three axes; per world unit "
+      "and unit of density")
+    ->check(number("a number greater than 0", [](double v) { return v > 0.0; }))
+    ->type_name("S");
   command->add_flag("--quiet", options->quiet, "No progress bar");
-  command->footer("Example: brume info scan.nii.gz --json scan.json");
+  command->footer("Examples: brume info scan.nii.gz --json scan.json\n"
+                  "          brume info cloud.vdb --extinction 0.05");
   command->callback([options] { run(*options); });
 }
 

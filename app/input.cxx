@@ -42,7 +42,7 @@ Input make_sample(const std::string& name, const Progress& progress)
       input.format = "sample";
       return input;
     }
-    known += (known.empty() ? "" : ", ") + std::string(sample.name);
+    known += (known.empty() ? "" : ", ") + sample.name;
   }
   throw Failure("sample:" + name, "there is no such sample",
     known.empty() ? "this build has none" : "choose one of " + known, BadCall);
@@ -187,18 +187,50 @@ Input open_image(const std::string& path, const InputChoice& choice, const Progr
 
 Input open_sparse(const std::string& path, const InputChoice& choice, const Progress& progress)
 {
-  vtkNew<vtkBrumeOpenVDBReader> reader;
-  reader->SetGridName(choice.grid.empty() ? nullptr : choice.grid.c_str());
   Input input;
-  read(reader.Get(), path, choice, progress, input);
+  const auto open = [&](const std::string& grid)
+  {
+    vtkNew<vtkBrumeOpenVDBReader> reader;
+    reader->SetGridName(grid.empty() ? nullptr : grid.c_str());
+    reader->SetLevelSets(choice.level_set == "distance"
+        ? vtkBrumeOpenVDBReader::LevelSetsAsDistances
+        : vtkBrumeOpenVDBReader::LevelSetsAsFog);
+    read(reader.Get(), path, choice, progress, input);
+    return vtkSmartPointer<vtkBrumeOpenVDBReader>(reader);
+  };
+  const auto reader = open(choice.grid);
   input.sparse = reader->GetOutput();
   input.format = "OpenVDB";
+  input.length_unit = reader->GetLengthUnit();
+  input.value_unit = reader->GetValueUnit();
+  input.patient_axes = reader->GetPatientAxes();
   for (int i = 0; i < reader->GetNumberOfGrids(); ++i)
   {
-    input.grids.push_back(std::string(reader->GetNameOfGrid(i)) + " (" +
-      reader->GetTypeOfGrid(i) + ", " + reader->GetKindOfGrid(i) + ")");
+    input.grids.push_back(std::string(reader->GetNameOfGrid(i)) + " (" + reader->GetTypeOfGrid(i) +
+      ", " + reader->GetKindOfGrid(i) + ")");
   }
   input.messages = messages_of(reader.Get());
+  if (choice.all_grids && choice.grid.empty())
+  {
+    input.messages.clear(); // of which grid is taken: all are
+    for (int i = 0; i < reader->GetNumberOfGrids(); ++i)
+    {
+      if (i == reader->GetGridIndex())
+      {
+        continue;
+      }
+      try
+      {
+        const std::string name = reader->GetNameOfGrid(i);
+        input.more_sparse.push_back(open(name)->GetOutput());
+      }
+      catch (const Failure& failure)
+      {
+        InterruptionWatch::check(path.c_str());
+        input.messages.push_back(std::string("left out: ") + failure.what());
+      }
+    }
+  }
   return input;
 }
 

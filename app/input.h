@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,11 @@ struct Input
 {
   vtkSmartPointer<vtkImageData> image; ///< with point scalars; at least one voxel
   vtkSmartPointer<vtkBrumeSparseVolume> sparse; ///< in place of the image, which is null then
+  /// Further grids on the sparse volume's lattice, such as a temperature; only files take them.
+  std::vector<vtkSmartPointer<vtkBrumeSparseVolume>> more_sparse;
+  /// The values of "nothing" by array, where it is not 0: what a .vdb need not store.
+  std::map<std::string, double> backgrounds;
+  bool signed_distance = false; ///< the values are distances to a surface, negative within
   std::vector<std::string> grids; ///< of a file of several, as people read them; else empty
   std::string name;        ///< for people: the file's name without its folder, or the sample's
   std::string format;      ///< "NIfTI-1 (gzip)", "sample", …
@@ -43,6 +49,8 @@ struct InputChoice
   std::optional<int> time_step; ///< of a series over time, from 0 on; empty: the first
   std::optional<double> time;   ///< the same by its time: the nearest
   std::int64_t max_memory = 0;  ///< bytes; 0: three quarters of the machine's
+  std::string level_set = "fog"; ///< of an OpenVDB file: "fog" (a density) or "distance" (as it is)
+  bool all_grids = false; ///< without a grid by name, the others too, into Input::more_sparse
 };
 
 /// Opens INPUT as the user wrote it: `sample:NAME`, or a file, or a folder of DICOM, of which `choice`
@@ -55,12 +63,12 @@ Input open_input(const std::string& spec, const std::function<void(double)>& pro
 /// The same with a bar on the terminal for what takes over a second, unless `quiet`.
 Input open_input_with_bar(const std::string& spec, const InputChoice& choice, bool quiet);
 
-/// A sample: what `sample:NAME` makes.
+/// A sample: what `sample:NAME` makes. Each kind of `brume generate` is one (generators.h).
 struct Sample
 {
-  const char* name;
-  const char* summary; ///< one line
-  Input (*make)(const std::function<void(double)>& progress);
+  std::string name;
+  std::string summary; ///< one line
+  std::function<Input(const std::function<void(double)>& progress)> make;
 };
 /// Every sample, in the order in which they are listed.
 const std::vector<Sample>& samples();

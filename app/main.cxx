@@ -37,6 +37,8 @@ int main(int argc, char** argv)
   program.formatter(std::make_shared<HelpText>()); // before the subcommands, which inherit it
   program.footer("brume SUBCOMMAND --help tells its options.");
   add_compare(program);
+  add_convert(program);
+  add_generate(program);
   add_info(program);
   add_plan(program);
   add_render(program);

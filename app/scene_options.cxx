@@ -71,22 +71,23 @@ std::string preset_names()
 
 void add_input(CLI::App& command, std::string& input, InputChoice& choice)
 {
-  std::string names;
-  for (const Sample& sample : samples())
-  {
-    names += (names.empty() ? "sample:" : ", sample:") + std::string(sample.name);
-  }
   command
     .add_option("INPUT", input,
       "A file (DICOM, .tiff, .nii, .nii.gz, .mha, .mhd, .nrrd, .nhdr, .vti, .vtk, .vdb; .raw with NAME.raw.json "
       "beside it: {\"dimensions\": [X, Y, Z], \"type\": \"uint16\", \"byte_order\": \"little\", "
       "\"spacing\": [1, 1, 1]}), numbered files of a series "
-      "(NAME%04d.EXT), a folder of DICOM or of TIFF or PNG slices, or a volume made on the spot (" +
-        names + ")")
+      "(NAME%04d.EXT), a folder of DICOM or of TIFF or PNG slices, or a volume made on the spot "
+      "(sample:cloud, sample:fog, sample:head-ct, sample:smoke, and every kind of brume generate --list)")
     ->required();
   command
     .add_option("--grid", choice.grid, "Which grid of an OpenVDB file [the first that can be read]")
     ->type_name("NAME");
+  command
+    .add_option("--level-set", choice.level_set,
+      "What becomes of an OpenVDB file's level set: fog (a density, 0 at the surface, 1 from the band's "
+      "depth on) or distance (as it is) [" + choice.level_set + "]")
+    ->check(one_of({ "fog", "distance" }))
+    ->type_name("HOW");
   command
     .add_option("--series", choice.series,
       "Which series of a DICOM folder: its number in the list that the error without a choice gives, "

@@ -9,8 +9,10 @@
 #include "vtkPointData.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <type_traits>
 
@@ -139,7 +141,44 @@ VolumeSummary summarize(vtkBrumeSparseVolume* volume, int bins)
   return summary;
 }
 
-std::string draw_histogram(const VolumeSummary& summary, int width)
+bool terminal_takes_utf8()
+{
+  for (const char* name : { "LC_ALL", "LC_CTYPE", "LANG" })
+  {
+    const char* value = std::getenv(name);
+    if (value && *value)
+    {
+      std::string text = value;
+      std::transform(text.begin(), text.end(), text.begin(),
+        [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+      return text.find("utf-8") != std::string::npos || text.find("utf8") != std::string::npos;
+    }
+  }
+  return false;
+}
+
+namespace
+{
+
+/// A bar of so many eighths of a column: U+2588 is a whole one, U+2589 to U+258F are 7 to 1 eighths.
+std::string bar_of_blocks(int eighths)
+{
+  std::string bar;
+  for (int i = 0; i < eighths / 8; ++i)
+  {
+    bar += "\xe2\x96\x88";
+  }
+  if (eighths % 8 > 0)
+  {
+    bar += "\xe2\x96";
+    bar += static_cast<char>(0x88 + 8 - eighths % 8);
+  }
+  return bar;
+}
+
+}
+
+std::string draw_histogram(const VolumeSummary& summary, int width, bool blocks)
 {
   const std::size_t bins = summary.histogram.size();
   if (bins == 0)
@@ -154,14 +193,16 @@ std::string draw_histogram(const VolumeSummary& summary, int width)
   {
     const double start = summary.minimum + static_cast<double>(i) * summary.bin_width;
     const std::uint64_t count = summary.histogram[i];
-    const int bar = count == 0
+    const int unit = blocks ? 8 : 1;
+    const int length = count == 0
       ? 0
-      : std::max(1, static_cast<int>(std::lround(room * std::log1p(static_cast<double>(count)) / full)));
+      : std::max(1, static_cast<int>(std::lround(unit * room * std::log1p(static_cast<double>(count)) / full)));
+    const std::string bar = blocks ? bar_of_blocks(length) : std::string(length, '#');
     char label[64];
     std::snprintf(label, sizeof(label), "%12.5g |", start);
     char number[32];
     std::snprintf(number, sizeof(number), "%llu", static_cast<unsigned long long>(count));
-    text += label + std::string(bar, '#') + (count ? " " : "") + (count ? number : "") + "\n";
+    text += label + bar + (count ? " " : "") + (count ? number : "") + "\n";
   }
   return text;
 }

@@ -37,7 +37,11 @@ VolumeSummary summarize(vtkImageData* image, int component = 0, int bins = 24);
 VolumeSummary summarize(vtkBrumeSparseVolume* volume, int bins = 24);
 
 /// The histogram as lines of text, at most `width` columns wide, longest bar the fullest bin; bars
-/// are as long as the logarithm of 1 + the count.
-std::string draw_histogram(const VolumeSummary& summary, int width = 72);
+/// are as long as the logarithm of 1 + the count. `blocks`: bars of UTF-8's blocks, to an eighth of a
+/// column, else of "#".
+std::string draw_histogram(const VolumeSummary& summary, int width = 72, bool blocks = false);
+
+/// Whether the terminal's language (LC_ALL, LC_CTYPE or LANG, the first that is set) is in UTF-8.
+bool terminal_takes_utf8();
 
 }

@@ -9,7 +9,7 @@ find_package(ZLIB REQUIRED)
 find_package(MPI QUIET COMPONENTS C) # VTK's Debian package names MPI::MPI_C without finding it
 find_package(VTK 9.1 REQUIRED COMPONENTS
   CommonCore CommonDataModel CommonExecutionModel CommonMath CommonMisc CommonTransforms
-  CommonSystem FiltersCore IOGeometry IOImage IOLegacy IOPLY IOXML ImagingCore
+  CommonSystem FiltersCore IOCore IOGeometry IOImage IOLegacy IOPLY IOXML ImagingCore
   RenderingCore RenderingVolume RenderingOpenGL2 RenderingVolumeOpenGL2 RenderingFreeType
   InteractionStyle FiltersSources)
 

@@ -132,6 +132,7 @@ void vtkBrumeSparseVolume::Initialize()
   this->IndexToWorld->Identity();
   this->Name.clear();
   this->ActiveVoxelCount = 0;
+  this->GridClass = GridClassUnknown;
   this->ValueRange[0] = 0.0;
   this->ValueRange[1] = -1.0;
 }
@@ -146,6 +147,7 @@ void vtkBrumeSparseVolume::Share(vtkBrumeSparseVolume* source)
   this->IndexToWorld->DeepCopy(source->IndexToWorld);
   this->Name = source->Name;
   this->ActiveVoxelCount = source->ActiveVoxelCount;
+  this->GridClass = source->GridClass;
   std::copy(source->ValueRange, source->ValueRange + 2, this->ValueRange);
   this->Modified();
 }
@@ -179,6 +181,7 @@ void vtkBrumeSparseVolume::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Name: " << (this->Name.empty() ? "(none)" : this->Name) << '\n';
   os << indent << "ActiveVoxelCount: " << this->ActiveVoxelCount << '\n';
+  os << indent << "GridClass: " << this->GridClass << '\n';
   os << indent << "ValueRange: " << this->ValueRange[0] << ' ' << this->ValueRange[1] << '\n';
   os << indent << "IndexToWorld:\n";
   this->IndexToWorld->PrintSelf(os, indent.GetNextIndent());

@@ -79,6 +79,21 @@ public:
   vtkGetMacro(ActiveVoxelCount, vtkIdType);
   ///@}
 
+  /** What the values are, in OpenVDB's words. */
+  enum GridClasses
+  {
+    GridClassUnknown = 0,
+    GridClassFogVolume = 1, ///< a density
+    GridClassLevelSet = 2   ///< the distance to a surface, negative within
+  };
+  ///@{
+  /**
+   * What the values are. Default: unknown. Mappers draw all alike; writers keep it.
+   */
+  vtkSetClampMacro(GridClass, int, GridClassUnknown, GridClassLevelSet);
+  vtkGetMacro(GridClass, int);
+  ///@}
+
   /**
    * The least and the largest finite value, the background among them; 0 and -1 where there is
    * none.
@@ -127,6 +142,7 @@ private:
   vtkNew<vtkMatrix4x4> IndexToWorld;
   std::string Name;
   vtkIdType ActiveVoxelCount = 0;
+  int GridClass = GridClassUnknown;
   double ValueRange[2] = { 0.0, -1.0 };
 };
 

@@ -18,8 +18,9 @@ namespace brume
 namespace
 {
 
-const char* const Channels[8] = { "R", "G", "B", "A", "transmittance.R", "transmittance.G",
-  "transmittance.B", "Z" };
+constexpr int ChannelCount = 9;
+const char* const Channels[ChannelCount] = { "R", "G", "B", "A", "transmittance.R", "transmittance.G",
+  "transmittance.B", "Z", "error" };
 
 [[noreturn]] void fail(const std::string& path, const std::string& wrong, const std::string& remedy)
 {
@@ -111,15 +112,15 @@ void write_exr(const Film& film, const std::string& path,
   want_ending(path, ".exr");
   const std::size_t count =
     film.width > 0 && film.height > 0 ? film.size() : 0;
-  bool right = film.depth.size() == count;
+  bool right = film.depth.size() == count && film.error.size() == count;
   for (int c = 0; c < 3; ++c)
   {
     right = right && film.radiance[c].size() == count && film.transmittance[c].size() == count;
   }
   check_size(path, film.width, film.height, right);
 
-  OIIO::ImageSpec spec(film.width, film.height, 8, OIIO::TypeDesc::FLOAT);
-  spec.channelnames.assign(Channels, Channels + 8);
+  OIIO::ImageSpec spec(film.width, film.height, ChannelCount, OIIO::TypeDesc::FLOAT);
+  spec.channelnames.assign(Channels, Channels + ChannelCount);
   spec.alpha_channel = 3;
   spec.z_channel = 7;
   spec.attribute("compression", "zip");
@@ -129,12 +130,12 @@ void write_exr(const Film& film, const std::string& path,
   {
     spec.attribute(key, value);
   }
-  std::vector<float> pixels(8 * count);
+  std::vector<float> pixels(ChannelCount * count);
   float* out = pixels.data();
   for (int row = film.height - 1; row >= 0; --row) // EXR begins at the top
   {
     for (std::size_t i = static_cast<std::size_t>(row) * film.width, end = i + film.width; i < end;
-         ++i, out += 8)
+         ++i, out += ChannelCount)
     {
       double passed = 0;
       for (int c = 0; c < 3; ++c)
@@ -145,6 +146,7 @@ void write_exr(const Film& film, const std::string& path,
       }
       out[3] = static_cast<float>(1 - passed / 3);
       out[7] = film.depth[i];
+      out[8] = film.error[i];
     }
   }
   const std::vector<unsigned char> bytes =
@@ -171,8 +173,8 @@ Film read_exr(const std::string& path)
   {
     fail(path, "is not a picture of two dimensions", "check that it is what it should be");
   }
-  int place[8];
-  for (int c = 0; c < 8; ++c)
+  int place[ChannelCount];
+  for (int c = 0; c < ChannelCount; ++c)
   {
     place[c] = spec.channelindex(Channels[c]);
   }
@@ -200,9 +202,9 @@ Film read_exr(const std::string& path)
                                                      : 0;
       }
       film.depth[i] = place[7] >= 0 ? in[place[7]] : std::numeric_limits<float>::infinity();
+      film.error[i] = place[8] >= 0 ? in[place[8]] : 0.f;
     }
   }
-  std::fill(film.error.begin(), film.error.end(), 0.f);
   return film;
 }
 

@@ -31,8 +31,8 @@ VTKBRUMEIO_EXPORT unsigned char display_byte(float value, const Display& display
 
 /// Writes a film as OpenEXR, 32-bit float: `R G B` the linear radiance with nothing behind,
 /// `A` = 1 − the mean of the three transmittances, `transmittance.R`, `.G`, `.B`, and `Z` the depth
-/// (+infinity where there is none). Values are stored bit for bit (a NaN too). The film's error
-/// plane is not stored. `metadata` becomes string attributes of the file, beside `Software`.
+/// (+infinity where there is none), and `error` the film's estimate of each pixel's error, as a
+/// fraction of white. Values are stored bit for bit (a NaN too). `metadata` becomes string attributes of the file, beside `Software`.
 /// The file appears whole or not at all (atomic_file.h).
 /// Throws std::runtime_error, "PATH: what is wrong: what to do": an ending other than .exr, an empty
 /// film or one whose planes are of the wrong size, a folder that is missing or may not be written, a
@@ -40,9 +40,9 @@ VTKBRUMEIO_EXPORT unsigned char display_byte(float value, const Display& display
 VTKBRUMEIO_EXPORT void write_exr(const Film& film, const std::string& path,
   const std::map<std::string, std::string>& metadata = {});
 
-/// Reads what write_exr() wrote, bit for bit; the error plane is 0. An EXR of another maker needs R,
+/// Reads what write_exr() wrote, bit for bit. An EXR of another maker needs R,
 /// G and B: without `transmittance.*` they are 1 − A, without A too they are 0 (opaque); without Z
-/// the depth is +infinity. Throws as write_exr() does.
+/// the depth is +infinity, without `error` the error is 0. Throws as write_exr() does.
 VTKBRUMEIO_EXPORT Film read_exr(const std::string& path);
 
 /// Writes a picture as PNG, 8 bits each of R, G, B. `rgb` is interleaved, rows from the bottom up,

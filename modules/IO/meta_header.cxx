@@ -3,6 +3,7 @@
 
 #include "file_access.h"
 #include "header_text.h"
+#include "image_file.h"
 
 #include <cmath>
 #include <cstdio>
@@ -105,6 +106,9 @@ void orient(ScanHeader& h, const Keys& keys, std::size_t rank)
   }
   const std::string anatomy = value(keys, { "AnatomicalOrientation" });
   h.patient = turn != identity || (!anatomy.empty() && anatomy.find('?') == std::string::npos);
+  bool world_axes = false; // not a patient's: Brume's own writer says so in a comment
+  read_mark(value(keys, { "Comment" }), world_axes, h.length_unit, h.value_unit);
+  h.patient = h.patient && !world_axes;
   if (h.patient)
   {
     // ITK's world is LPS+; Brume's is RAS+.

@@ -3,6 +3,7 @@
 #include "scan_header.h"
 
 #include "file_access.h"
+#include "image_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,6 +63,7 @@ struct Nifti
   double quaternion[3] = {};
   double offset[3] = {};
   double rows[12] = {};
+  std::string description; // a NIfTI-1's descrip
 };
 
 template <typename Dim, typename Real>
@@ -146,6 +148,8 @@ Nifti parse(const std::string& path, const unsigned char* bytes, std::size_t len
     n.slope = f.get<float>(112);
     n.intercept = f.get<float>(116);
     n.units = bytes[123];
+    const auto* text = reinterpret_cast<const char*>(bytes + 148);
+    n.description.assign(text, std::find(text, text + 80, '\0'));
     n.time_offset = f.get<float>(136);
     n.qform = f.get<std::int16_t>(252);
     n.sform = f.get<std::int16_t>(254);
@@ -239,16 +243,24 @@ void orient(ScanHeader& h, Nifti& n)
       h.messages.push_back("the qform holds no usable rotation and is set aside");
     }
   }
+  bool world_axes = false; // not a patient's: Brume's own writer says so in a comment
+  std::string length_unit;
+  read_mark(n.description, world_axes, length_unit, h.value_unit);
   if (!h.patient)
   {
     h.messages.push_back(
       "the header says nothing of how the patient lies; axes are those of the voxels");
   }
+  h.patient = h.patient && !world_axes;
   static const char* const names[4] = { "", "m", "mm", "um" };
   const int unit = n.units & 7;
   if (unit >= 1 && unit <= 3)
   {
     convert_to_millimetres(h, names[unit]);
+  }
+  else if (!length_unit.empty() || world_axes)
+  {
+    h.length_unit = length_unit;
   }
   else
   {

@@ -11,10 +11,13 @@
 #include <openvdb/io/Archive.h>
 #include <openvdb/io/File.h>
 #include <openvdb/io/GridDescriptor.h>
+#include <openvdb/tools/LevelSetUtil.h>
 
 #include <sys/mman.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <functional>
@@ -81,11 +84,6 @@ std::string refusal_of(const openvdb::GridBase& grid)
   if (!grid.isType<openvdb::FloatGrid>() && !grid.isType<openvdb::DoubleGrid>())
   {
     return "holds " + grid.valueType() + ": name a grid of floats";
-  }
-  if (grid.getGridClass() == openvdb::GRID_LEVEL_SET)
-  {
-    return "is a level set, distances to a surface: convert it to a fog volume "
-           "(openvdb::tools::sdfToFogVolume, or Convert VDB in Houdini)";
   }
   if (!grid.transform().isLinear())
   {
@@ -276,7 +274,11 @@ std::vector<VdbGrid> list_grids(const std::string& path, std::uint64_t length)
       for (const std::string& name : names)
       {
         const openvdb::GridBase::Ptr grid = file->readGridMetadata(name);
-        grids.push_back({ name, type_of(*grid), kind_of(*grid), refusal_of(*grid) });
+        grids.push_back({ name,
+          type_of(*grid),
+          kind_of(*grid),
+          refusal_of(*grid),
+          grid->getGridClass() == openvdb::GRID_LEVEL_SET });
       }
       return grids;
     });
@@ -300,8 +302,43 @@ std::vector<VdbGrid> list_vdb_grids(const std::string& path)
   return list_grids(path, length);
 }
 
+namespace
+{
+
+/// A text that Brume's writer left beside the grid; empty where it left none.
+std::string told(const openvdb::GridBase& grid, const char* name)
+{
+  const auto text = grid.getMetadata<openvdb::StringMetadata>(name);
+  return text && text->value().size() <= 64 ? text->value() : std::string();
+}
+
+/// Distances to densities, in place. The band's width is the background, which OpenVDB divides by.
+template <class Grid>
+void make_fog(const std::string& path, const VdbGrid& which, Grid& grid, VdbVolume& volume)
+{
+  const auto band = grid.background();
+  if (!std::isfinite(band) || !(band > 0))
+  {
+    fail(path,
+      "its grid '" + which.name + "' is a level set with a background of " + std::to_string(band) +
+        ", which is no width of a band",
+      "read it as distances, or repair it (LevelSetRebuild)");
+  }
+  openvdb::tools::sdfToFogVolume(grid);
+  volume.active_voxels = grid.activeVoxelCount();
+  volume.level_set = false;
+  volume.fog_volume = true;
+  char width[32];
+  std::snprintf(width, sizeof(width), "%.6g", static_cast<double>(band));
+  volume.messages.push_back("its level set becomes a density: 0 at the surface, 1 from a depth of " +
+    std::string(width) + " on");
+}
+
+}
+
 VdbVolume read_vdb_grid(const std::string& path,
   const VdbGrid& which,
+  bool level_set_to_fog,
   std::uint64_t limit,
   const Progress& progress)
 {
@@ -336,6 +373,11 @@ VdbVolume read_vdb_grid(const std::string& path,
       VdbVolume volume;
       volume.name = which.name;
       volume.active_voxels = grid->activeVoxelCount();
+      volume.level_set = which.level_set;
+      volume.fog_volume = grid->getGridClass() == openvdb::GRID_FOG_VOLUME;
+      volume.length_unit = told(*grid, "length_unit");
+      volume.value_unit = told(*grid, "value_unit");
+      volume.patient = told(*grid, "axes") == "RAS";
       const openvdb::Mat4R matrix = grid->constTransform().baseMap()->getAffineMap()->getMat4();
       for (int row = 0; row < 4; ++row)
       {
@@ -347,15 +389,21 @@ VdbVolume read_vdb_grid(const std::string& path,
       const bool half = which.type == "half";
       try
       {
+        const auto take = [&](auto& typed)
+        {
+          if (which.level_set && level_set_to_fog)
+          {
+            make_fog(path, which, typed, volume);
+          }
+          volume.voxels = take_voxels(typed.tree(), half, path, limit, progress);
+        };
         if (grid->isType<openvdb::FloatGrid>())
         {
-          volume.voxels =
-            take_voxels(static_cast<openvdb::FloatGrid&>(*grid).tree(), half, path, limit, progress);
+          take(static_cast<openvdb::FloatGrid&>(*grid));
         }
         else
         {
-          volume.voxels =
-            take_voxels(static_cast<openvdb::DoubleGrid&>(*grid).tree(), half, path, limit, progress);
+          take(static_cast<openvdb::DoubleGrid&>(*grid));
           volume.messages.push_back("its doubles are rounded to single precision");
         }
       }

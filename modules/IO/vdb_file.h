@@ -24,8 +24,9 @@ struct VdbGrid
   std::string name; ///< as the file has it; a second one of the same name is "name[1]"
   std::string type; ///< "float", "half" (a float grid stored as such), "double", "vec3s", …
   std::string kind; ///< "fog volume", "level set", "staggered", "unknown"
-  /// Why it cannot be drawn and what to do, "is a level set: …"; empty where it can.
+  /// Why it cannot be read and what to do, "holds vec3s: …"; empty where it can.
   std::string refusal;
+  bool level_set = false;
 };
 
 /// A grid with its voxels.
@@ -36,6 +37,11 @@ struct VdbVolume
   /// The file's voxel (i, j, k) in its world, row-major 4 × 4: world = matrix · (i, j, k, 1).
   std::array<double, 16> world_from_index{};
   std::uint64_t active_voxels = 0;
+  bool fog_volume = false; ///< what it is in memory
+  bool level_set = false;
+  std::string length_unit; ///< where Brume's writer left them in the grid's metadata
+  std::string value_unit;
+  bool patient = false;
   std::vector<std::string> messages; ///< what was settled by itself, one line each
 };
 
@@ -47,10 +53,12 @@ bool looks_like_vdb(const std::string& path);
 std::vector<VdbGrid> list_vdb_grids(const std::string& path);
 
 /// Reads one grid of list_vdb_grids(). Its voxels go from the file to their bricks at once, on all
-/// processors, and are never held twice. Throws as above, also where they take more than `limit` bytes
+/// processors, and are never held twice. `level_set_to_fog`: a level set becomes a density, 1 where it
+/// is deeper than its band is wide, falling to 0 at the surface (openvdb::tools::sdfToFogVolume). Throws as above, also where they take more than `limit` bytes
 /// (memory_limit.h); std::bad_alloc where memory runs out.
 VdbVolume read_vdb_grid(const std::string& path,
   const VdbGrid& grid,
+  bool level_set_to_fog,
   std::uint64_t limit,
   const Progress& progress);
 

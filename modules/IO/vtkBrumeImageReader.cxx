@@ -138,6 +138,9 @@ struct vtkBrumeImageReader::Internals
       this->Image = volume.image;
       this->Format = volume.format;
       this->Messages = volume.messages;
+      this->LengthUnit = volume.length_unit;
+      this->ValueUnit = volume.value_unit;
+      this->PatientAxes = volume.patient_axes;
       return;
     }
     if (format != io::Format::LegacyVtk)

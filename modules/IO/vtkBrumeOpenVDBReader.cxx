@@ -31,6 +31,9 @@ struct vtkBrumeOpenVDBReader::Internals
   std::vector<io::VdbGrid> Grids;
   std::vector<io::NumberedFile> Files; ///< of a series; else empty
   std::string Path;                    ///< the file whose grids Grids are
+  std::string LengthUnit;
+  std::string ValueUnit;
+  bool PatientAxes = false;
 
   /// The file of the volume nearest to a time; the first of two that are as near.
   std::size_t Nearest(double time) const
@@ -70,12 +73,19 @@ struct vtkBrumeOpenVDBReader::Internals
     {
       io::fail(path, "it holds no grid", "look at what wrote it");
     }
+    int level_set = -1;
     for (int i = 0; i < count; ++i)
     {
-      if (name.empty() ? this->Grids[i].refusal.empty() : this->Grids[i].name == name)
+      const io::VdbGrid& grid = this->Grids[i];
+      if (name.empty() ? grid.refusal.empty() && !grid.level_set : grid.name == name)
       {
         return i;
       }
+      level_set = level_set < 0 && grid.refusal.empty() && grid.level_set ? i : level_set;
+    }
+    if (name.empty() && level_set >= 0)
+    {
+      return level_set;
     }
     if (name.empty() && count == 1)
     {
@@ -83,7 +93,7 @@ struct vtkBrumeOpenVDBReader::Internals
     }
     if (name.empty())
     {
-      io::fail(path, "none of its grids is a fog volume of floats", "it holds " + this->Names());
+      io::fail(path, "none of its grids holds floats that can be read", "it holds " + this->Names());
     }
     io::fail(path, "it has no grid '" + name + "'", "name one of " + this->Names());
   }
@@ -135,6 +145,21 @@ const char* vtkBrumeOpenVDBReader::GetKindOfGrid(int index) const
 {
   const io::VdbGrid* grid = this->Internal->Grid(index);
   return grid ? grid->kind.c_str() : nullptr;
+}
+
+const char* vtkBrumeOpenVDBReader::GetLengthUnit() const
+{
+  return this->Internal->LengthUnit.c_str();
+}
+
+const char* vtkBrumeOpenVDBReader::GetValueUnit() const
+{
+  return this->Internal->ValueUnit.c_str();
+}
+
+bool vtkBrumeOpenVDBReader::GetPatientAxes() const
+{
+  return this->Internal->PatientAxes;
 }
 
 const char* vtkBrumeOpenVDBReader::GetErrorMessage() const
@@ -280,6 +305,7 @@ int vtkBrumeOpenVDBReader::RequestData(vtkInformation*,
       const int index = self.Choose(self.Path, this->GridName ? this->GridName : "");
       const io::VdbVolume volume = io::read_vdb_grid(self.Path,
         self.Grids[index],
+        this->LevelSets == LevelSetsAsFog,
         static_cast<std::uint64_t>(this->MaximumMemory),
         [this](double done)
         {
@@ -292,6 +318,12 @@ int vtkBrumeOpenVDBReader::RequestData(vtkInformation*,
       output->SetIndexToWorld(matrix);
       output->SetName(volume.name);
       output->SetActiveVoxelCount(static_cast<vtkIdType>(volume.active_voxels));
+      output->SetGridClass(volume.level_set ? vtkBrumeSparseVolume::GridClassLevelSet
+          : volume.fog_volume               ? vtkBrumeSparseVolume::GridClassFogVolume
+                                            : vtkBrumeSparseVolume::GridClassUnknown);
+      self.LengthUnit = volume.length_unit;
+      self.ValueUnit = volume.value_unit;
+      self.PatientAxes = volume.patient;
       self.Messages.insert(self.Messages.end(), volume.messages.begin(), volume.messages.end());
       if (!this->GridName || !*this->GridName)
       {
@@ -317,6 +349,7 @@ void vtkBrumeOpenVDBReader::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << '\n';
   os << indent << "GridName: " << (this->GridName ? this->GridName : "(none)") << '\n';
+  os << indent << "LevelSets: " << (this->LevelSets == LevelSetsAsFog ? "fog" : "distances") << '\n';
   os << indent << "MaximumMemory: " << this->MaximumMemory << '\n';
   os << indent << "GridIndex: " << this->GridIndex << '\n';
   for (int i = 0; i < this->GetNumberOfGrids(); ++i)

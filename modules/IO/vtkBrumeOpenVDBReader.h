@@ -8,7 +8,8 @@
  * transform. Values of inactive voxels and tiles count as they do in OpenVDB: as values. Beyond the
  * box around what is stored the volume ends, whatever the background.
  *
- * Level sets, grids of other types and perspective (frustum) transforms are refused with a word on
+ * A level set (distances to a surface) becomes a density, or stays what it is (SetLevelSets). Grids
+ * of other types and perspective (frustum) transforms are refused with a word on
  * what to do. When something is wrong the output is empty, ErrorEvent is invoked, and
  * GetErrorMessage() holds one line.
  *
@@ -46,10 +47,25 @@ public:
   ///@{
   /**
    * The grid to read, by its name; "NAME[1]" is the second of a name. Default: none, which takes
-   * the first in the file that can be read.
+   * the first in the file that can be read, a level set only where there is no other.
    */
   vtkSetStringMacro(GridName);
   vtkGetStringMacro(GridName);
+  ///@}
+
+  /** What becomes of a level set. */
+  enum LevelSetModes
+  {
+    LevelSetsAsFog = 0,      ///< a density: 0 outside and at the surface, rising to 1 at the band's
+                             ///< depth, 1 below it (openvdb::tools::sdfToFogVolume)
+    LevelSetsAsDistances = 1 ///< as it is: world units, negative within, the band's width beyond it
+  };
+  ///@{
+  /**
+   * What becomes of level sets. Default: fog.
+   */
+  vtkSetClampMacro(LevelSets, int, LevelSetsAsFog, LevelSetsAsDistances);
+  vtkGetMacro(LevelSets, int);
   ///@}
 
   ///@{
@@ -77,6 +93,16 @@ public:
    * Which grid the output is, -1 before an update and after one that failed.
    */
   vtkGetMacro(GridIndex, int);
+
+  ///@{
+  /**
+   * The units of lengths and values, and whether the world's axes are a patient's (RAS+): what
+   * vtkBrumeOpenVDBWriter left in the grid's metadata; empty and false without it.
+   */
+  const char* GetLengthUnit() const;
+  const char* GetValueUnit() const;
+  bool GetPatientAxes() const;
+  ///@}
 
   /**
    * What went wrong in the last update, "FILE: what is wrong: what to do", without a line end;
@@ -115,6 +141,7 @@ protected:
   char* FileName = nullptr;
   char* GridName = nullptr;
   int GridIndex = -1;
+  int LevelSets = LevelSetsAsFog;
   vtkTypeInt64 MaximumMemory = 0;
 
 private:

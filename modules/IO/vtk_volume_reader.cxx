@@ -12,6 +12,7 @@
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkExecutive.h"
+#include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationInformationVectorKey.h"
@@ -21,6 +22,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkOutputWindow.h"
 #include "vtkPointData.h"
+#include "vtkStringArray.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStructuredPoints.h"
 #include "vtkStructuredPointsReader.h"
@@ -421,6 +423,15 @@ VtkVolume read_vti(const std::string& path, std::uint64_t limit, const Progress&
   VtkVolume volume = read_guarded(path, limit, progress,
     [&](const Progress& report) { return read_vti_here(path, limit, report); });
   volume.format = "VTK XML image data";
+  const auto told = [&volume](const char* name)
+  {
+    auto* text =
+      vtkStringArray::SafeDownCast(volume.image->GetFieldData()->GetAbstractArray(name));
+    return text && text->GetNumberOfValues() == 1 ? std::string(text->GetValue(0)) : std::string();
+  };
+  volume.length_unit = told("length_unit");
+  volume.value_unit = told("value_unit");
+  volume.patient_axes = told("axes") == "RAS";
   return volume;
 }
 

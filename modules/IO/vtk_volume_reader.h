@@ -16,6 +16,9 @@ struct VtkVolume
   vtkSmartPointer<vtkImageData> image; ///< with scalars on its points, as many as it has points
   std::string format;
   std::vector<std::string> messages;
+  std::string length_unit;   ///< of a VTI that says so in its field data (vtkBrumeImageWriter)
+  std::string value_unit;    ///< likewise
+  bool patient_axes = false; ///< likewise
 };
 
 /// VTK XML image data (.vti) whose arrays take no more than `limit` bytes (memory_limit.h). Throws

@@ -25,6 +25,27 @@ run info sample:cloud
 expect_success
 expect_output '^name +sample:cloud$'
 
+case_ "the optical depth of a density, dense and sparse"
+filled ../even.nrrd 0.5 9 5 3
+run info ../even.nrrd --extinction 2 --json even.json
+expect_success
+expect_output '^optical depth +along axis i: median 8, largest 8, of 15 lines'
+expect_output '^ +along axis k: median 2, largest 2, of 45 lines'
+grep -q '"optical_depth"' even.json || fail "expected the optical depth in the JSON file"
+run convert ../even.nrrd even.vdb --quiet
+run info even.vdb --extinction 2
+expect_output '^optical depth +along axis i: median 9, largest 9, of 15 lines'
+run info ../even.nrrd --extinction 0
+expect_failure 2
+
+case_ "the histogram's bars: blocks where the terminal takes them, else letters"
+blob ../blob.nrrd
+LC_ALL=C run info ../blob.nrrd
+expect_output '\|#+ '
+LC_ALL=C.UTF-8 run info ../blob.nrrd
+refuse_output '\|#'
+expect_output '\|█+'
+
 case_ "a volume of NaN is told, not refused"
 filled ../nan.nrrd nan 4 4 4
 run info ../nan.nrrd --json nan.json

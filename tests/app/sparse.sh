@@ -86,14 +86,19 @@ expect_success
 grep -q '"skipped": "it would need the volume dense"' folder/compare.json ||
   fail "expected the reason in compare.json"
 
-case_ "a level set"
-for subcommand in "info" "render --output a.png"; do
-  # shellcheck disable=SC2086
-  run $subcommand "$data/level-set.vdb"
-  expect_failure 1
-  expect_error 'level set.*: convert it'
-done
-expect_no_files
+case_ "a level set is drawn as fog, and told as distances"
+run render "$data/level-set.vdb" --extinction 0.5 --output a.png "${small[@]}"
+expect_success
+run render "$data/level-set.vdb" --extinction 0.5 --level-set distance --output b.png "${small[@]}"
+expect_success
+differ a.png b.png
+run info "$data/level-set.vdb"
+expect_success
+expect_output '^value range +-'
+run info "$data/level-set.vdb" --level-set fog
+expect_success
+expect_output '^value range +0 to 1$'
+expect_output '^note +its level set becomes a density'
 
 case_ "a grid that is not there, and one of a file that has none"
 run render "$data/blob.vdb" --grid none --output a.png "${small[@]}"

@@ -31,6 +31,7 @@ Film film_of_all_values()
       film.radiance[c][i] = (v *= 1.7f);
       film.transmittance[c][i] = 1 / (1 + v);
       film.depth[i] = v + 3;
+      film.error[i] = v / 1000;
     }
   }
   film.radiance[0][1] = std::numeric_limits<float>::quiet_NaN();
@@ -62,6 +63,7 @@ TEST(FilmIo, ExrRoundTripIsBitExact)
     EXPECT_TRUE(same_bits(film.transmittance[c], back.transmittance[c]));
   }
   EXPECT_TRUE(same_bits(film.depth, back.depth));
+  EXPECT_TRUE(same_bits(film.error, back.error));
 }
 
 TEST(FilmIo, ExrHoldsTheChannelsOfTheContract)
@@ -73,22 +75,24 @@ TEST(FilmIo, ExrHoldsTheChannelsOfTheContract)
   const auto input = OIIO::ImageInput::open(path);
   ASSERT_TRUE(input);
   const OIIO::ImageSpec spec = input->spec();
-  EXPECT_EQ(spec.nchannels, 8);
+  EXPECT_EQ(spec.nchannels, 9);
   EXPECT_EQ(spec.format, OIIO::TypeDesc::FLOAT);
   for (const char* name :
-    { "R", "G", "B", "A", "transmittance.R", "transmittance.G", "transmittance.B", "Z" })
+    { "R", "G", "B", "A", "transmittance.R", "transmittance.G", "transmittance.B", "Z",
+      "error" })
   {
     EXPECT_GE(spec.channelindex(name), 0) << name;
   }
   EXPECT_EQ(spec.get_string_attribute("Software").substr(0, 6), "Brume ");
   EXPECT_EQ(spec.get_string_attribute("brume:mapper"), "raymarch");
-  std::vector<float> pixels(6 * 8);
-  ASSERT_TRUE(input->read_image(0, 0, 0, 8, OIIO::TypeDesc::FLOAT, pixels.data()));
+  std::vector<float> pixels(6 * 9);
+  ASSERT_TRUE(input->read_image(0, 0, 0, 9, OIIO::TypeDesc::FLOAT, pixels.data()));
   // The file's first row is the picture's top one: pixel (0, 1) of the film.
   const auto first = [&](const char* name) { return pixels[spec.channelindex(name)]; };
   EXPECT_EQ(first("R"), film.radiance[0][3]);
   EXPECT_EQ(first("G"), film.radiance[1][3]);
   EXPECT_EQ(first("transmittance.B"), film.transmittance[2][3]);
+  EXPECT_EQ(first("error"), film.error[3]);
   EXPECT_EQ(first("Z"), film.depth[3]);
   EXPECT_FLOAT_EQ(first("A"), 1 - (film.transmittance[0][3] + film.transmittance[1][3] +
                                     film.transmittance[2][3]) / 3);

@@ -14,6 +14,7 @@
 #include <openvdb/io/Stream.h>
 #include <openvdb/tools/Interpolation.h>
 #include <openvdb/tools/LevelSetSphere.h>
+#include <openvdb/tools/LevelSetUtil.h>
 
 #include <gtest/gtest.h>
 
@@ -227,8 +228,7 @@ TEST(OpenVDBReader, ChoosesAmongSeveralGrids)
     EXPECT_EQ(reader.error(), "");
     expect_same_values(reader.output(), *again);
   }
-  for (const auto& [name, words] : { std::pair("surface", "is a level set"),
-         std::pair("a velocity", "holds vec3s"),
+  for (const auto& [name, words] : { std::pair("a velocity", "holds vec3s"),
          std::pair("none", "no grid 'none'") })
   {
     Reader reader(path, name);
@@ -238,6 +238,54 @@ TEST(OpenVDBReader, ChoosesAmongSeveralGrids)
     EXPECT_FALSE(reader.output()->GetVoxels());
     EXPECT_EQ(reader.reader->GetGridIndex(), -1);
   }
+}
+
+TEST(OpenVDBReader, ReadsLevelSetsAsFogOrAsDistances)
+{
+  // Also of doubles, and with a transform that is none of a level set's.
+  const auto ball =
+    openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(40.0f, openvdb::Vec3f(3, 0, 0), 1.5f);
+  ball->setName("ball");
+  const auto deep =
+    openvdb::tools::createLevelSetSphere<openvdb::DoubleGrid>(30.0, openvdb::Vec3d(0, 0, 0), 1.0, 5.0);
+  deep->setName("deep");
+  openvdb::FloatGrid::Ptr broken = ball->deepCopy();
+  broken->setName("broken");
+  broken->tree().root().setBackground(-1.0f, /*updateChildNodes=*/false);
+  const std::string path = write(folder, "level-sets.vdb", { ball, deep, broken });
+
+  Reader fog(path);
+  EXPECT_EQ(fog.error(), "");
+  EXPECT_STREQ(fog.reader->GetNameOfGrid(fog.reader->GetGridIndex()), "ball");
+  EXPECT_EQ(fog.output()->GetGridClass(), vtkBrumeSparseVolume::GridClassFogVolume);
+  ASSERT_GE(fog.reader->GetNumberOfMessages(), 1);
+  EXPECT_NE(std::string(fog.reader->GetMessage(0)).find("depth of 4.5"), std::string::npos);
+  const openvdb::FloatGrid::Ptr expected = ball->deepCopy();
+  openvdb::tools::sdfToFogVolume(*expected);
+  expect_same_values(fog.output(), *expected);
+  EXPECT_EQ(fog.output()->GetValueRange()[0], 0.0);
+  EXPECT_EQ(fog.output()->GetValueRange()[1], 1.0);
+
+  fog.reader->SetLevelSets(vtkBrumeOpenVDBReader::LevelSetsAsDistances);
+  for (const openvdb::GridBase::Ptr& grid : { openvdb::GridBase::Ptr(ball), openvdb::GridBase::Ptr(deep) })
+  {
+    fog.reader->SetGridName(grid->getName().c_str());
+    fog.reader->Update();
+    EXPECT_EQ(fog.error(), "");
+    EXPECT_EQ(fog.output()->GetGridClass(), vtkBrumeSparseVolume::GridClassLevelSet);
+    if (grid == ball)
+    {
+      expect_same_values(fog.output(), *ball);
+      EXPECT_FLOAT_EQ(fog.output()->GetValueRange()[0], -4.5f);
+    }
+    else
+    {
+      expect_same_values(fog.output(), *deep);
+    }
+  }
+  Reader without_band(path, "broken");
+  EXPECT_NE(without_band.error().find("no width of a band"), std::string::npos)
+    << without_band.error();
 }
 
 TEST(OpenVDBReader, ReadsAFileThatWasSavedAsAStream)
