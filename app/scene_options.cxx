@@ -73,9 +73,11 @@ void add_input(CLI::App& command, std::string& input, InputChoice& choice)
 {
   command
     .add_option("INPUT", input,
-      "A file (DICOM, .nii, .nii.gz, .mha, .mhd, .nrrd, .nhdr, .vti, .vtk, .vdb), numbered files of a series "
-      "(NAME%04d.EXT), a folder of DICOM, or a volume made on the spot (sample:cloud, sample:fog, "
-      "sample:head-ct, sample:smoke, and every kind of brume generate --list)")
+      "A file (DICOM, .tiff, .nii, .nii.gz, .mha, .mhd, .nrrd, .nhdr, .vti, .vtk, .vdb; .raw with NAME.raw.json "
+      "beside it: {\"dimensions\": [X, Y, Z], \"type\": \"uint16\", \"byte_order\": \"little\", "
+      "\"spacing\": [1, 1, 1]}), numbered files of a series "
+      "(NAME%04d.EXT), a folder of DICOM or of TIFF or PNG slices, or a volume made on the spot "
+      "(sample:cloud, sample:fog, sample:head-ct, sample:smoke, and every kind of brume generate --list)")
     ->required();
   command
     .add_option("--grid", choice.grid, "Which grid of an OpenVDB file [the first that can be read]")

@@ -1,21 +1,15 @@
 #include "dicom_decode.h"
 
+#include "guarded_process.h"
 #include "scan_header.h"
 
 #include <gdcmImageReader.h>
 
-#include <fcntl.h>
 #include <sys/mman.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <chrono>
-#include <csignal>
 #include <cstring>
+#include <new>
 #include <set>
-#include <thread>
 
 namespace brume::io
 {
@@ -30,36 +24,24 @@ enum Outcome
   OtherSize = 11, ///< it gives other pixels than the header promises
 };
 
-/// What the process of its own does. Never returns.
-[[noreturn]] void decode_and_exit(
+/// What the process of its own does.
+int decode(
   const std::string& path, void* out, std::uint64_t bytes, int scalar_size, std::uint64_t frames)
 {
-  const int nowhere = open("/dev/null", O_WRONLY);
-  dup2(nowhere, 1);
-  dup2(nowhere, 2); // GDCM tells the standard error stream of all that it doubts
-  const rlimit none{ 0, 0 };
-  setrlimit(RLIMIT_CORE, &none);
-  int outcome = Refused;
-  try
+  gdcm::ImageReader reader;
+  reader.SetFileName(path.c_str());
+  if (!reader.Read())
   {
-    gdcm::ImageReader reader;
-    reader.SetFileName(path.c_str());
-    if (reader.Read())
-    {
-      const gdcm::Image& image = reader.GetImage();
-      const unsigned int depth = image.GetNumberOfDimensions() > 2 ? image.GetDimension(2) : 1;
-      outcome = OtherSize;
-      if (image.GetBufferLength() == bytes && depth == frames &&
-        image.GetPixelFormat().GetPixelSize() % scalar_size == 0)
-      {
-        outcome = image.GetBuffer(static_cast<char*>(out)) ? Decoded : Refused;
-      }
-    }
+    return Refused;
   }
-  catch (...)
+  const gdcm::Image& image = reader.GetImage();
+  const unsigned int depth = image.GetNumberOfDimensions() > 2 ? image.GetDimension(2) : 1;
+  if (image.GetBufferLength() != bytes || depth != frames ||
+    image.GetPixelFormat().GetPixelSize() % scalar_size != 0)
   {
+    return OtherSize;
   }
-  _exit(outcome);
+  return image.GetBuffer(static_cast<char*>(out)) ? Decoded : Refused;
 }
 
 }
@@ -85,45 +67,21 @@ std::vector<unsigned char> decode_dicom(const std::string& owner, const std::str
   {
     throw std::bad_alloc();
   }
-  const pid_t child = fork();
-  if (child == 0)
-  {
-    decode_and_exit(path, shared, bytes, scalar_size, frames);
-  }
-  int status = 0;
-  bool late = false;
-  if (child > 0)
-  {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10 + bytes / 4000000);
-    auto pause = std::chrono::microseconds(200);
-    while (waitpid(child, &status, WNOHANG) == 0)
-    {
-      if (!late && std::chrono::steady_clock::now() > end)
-      {
-        late = true;
-        kill(child, SIGKILL);
-      }
-      std::this_thread::sleep_for(pause);
-      pause = std::min(2 * pause, std::chrono::microseconds(20000));
-    }
-  }
-  const bool done = child > 0 && WIFEXITED(status) && WEXITSTATUS(status) == Decoded;
+  const GuardResult result = run_guarded([&] { return decode(path, shared, bytes, scalar_size, frames); },
+    1 + static_cast<double>(bytes) / 4e6, 8 * static_cast<double>(bytes) + (256 << 20));
+  const bool done = result.end == GuardEnd::Finished && result.status == Decoded;
   if (done)
   {
     std::memcpy(pixels.data(), shared, bytes);
   }
   munmap(shared, bytes);
-  if (child < 0)
-  {
-    fail(place, "no process can be started to decode it", remedy);
-  }
   if (!done)
   {
-    const bool other = WIFEXITED(status) && WEXITSTATUS(status) == OtherSize;
+    const bool finished = result.end == GuardEnd::Finished;
     fail(place,
-      late      ? "its compressed pixels take too long to decode"
-        : other ? "its compressed pixels are not of the size and type that its header gives"
-                : "its compressed pixels cannot be decoded",
+      !finished                      ? spoken_end(result.end)
+        : result.status == OtherSize ? "its compressed pixels are not of the size and type that its header gives"
+                                     : "its compressed pixels cannot be decoded",
       remedy);
   }
   return pixels;

@@ -14,7 +14,8 @@ bool can_decode(const std::string& transfer_syntax);
 
 /// All pictures of a file, in its order, as plain numbers of this machine: `bytes` in all. The
 /// decoders (GDCM and what it stands on) trust what they read, so they run in a process of their own,
-/// which a damaged file may bring down or keep busy: it is given 10 s, and one more for each 4 MB.
+/// which a damaged file may bring down or keep busy (guarded_process.h): it is given a second,
+/// and one more for each 4 MB.
 /// `owner` and `path` are as in file_length(). Throws fail() where they cannot be decoded.
 std::vector<unsigned char> decode_dicom(const std::string& owner, const std::string& path,
   std::uint64_t bytes, int scalar_size, std::uint64_t frames);

@@ -1,5 +1,6 @@
 #include "environment_io.h"
 
+#include "memory_limit.h"
 #include "scan_header.h"
 
 #include <OpenImageIO/imageio.h>
@@ -26,7 +27,7 @@ std::string one_line(std::string text)
 
 }
 
-EnvironmentPicture read_environment(const std::string& path)
+EnvironmentPicture read_environment(const std::string& path, std::uint64_t limit)
 {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error))
@@ -73,6 +74,9 @@ EnvironmentPicture read_environment(const std::string& path)
     fail(path, "has its colours among more than 1024 channels", "take R, G and B out of it");
   }
   const std::size_t row_size = static_cast<std::size_t>(spec.width) * channels;
+  // All channels from the first colour to the last, the three, and the three in VTK's array.
+  check_memory(
+    path, 4.0 * (channels + 6.0) * spec.width * spec.height, limit);
   EnvironmentPicture picture;
   picture.width = spec.width;
   picture.height = spec.height;

@@ -1,7 +1,10 @@
 #include "scan_format.h"
 
+#include "dicom_layout.h"
 #include "file_access.h"
 #include "header_text.h"
+#include "picture_stack.h"
+#include "raw_header.h"
 
 #include <algorithm>
 #include <cstring>
@@ -14,7 +17,7 @@ namespace
 {
 
 const char* const Known =
-  "Brume reads DICOM, NIfTI, MetaImage, NRRD, VTI and legacy VTK structured points";
+  "Brume reads DICOM, TIFF, NIfTI, MetaImage, NRRD, VTI and legacy VTK structured points";
 
 bool begins(const std::string& text, const std::string& with)
 {
@@ -64,6 +67,22 @@ bool is_text(const std::string& bytes)
     [](unsigned char c) { return c >= 32 || c == '\n' || c == '\r' || c == '\t'; });
 }
 
+/// Whether a file right in the folder is DICOM: pictures beside it are of the papers then.
+bool has_dicom(const std::string& folder)
+{
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(folder, error);
+       !error && entry != std::filesystem::directory_iterator(); entry.increment(error))
+  {
+    std::error_code ignored;
+    if (entry->is_regular_file(ignored) && looks_like_dicom(entry->path().string()))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 [[noreturn]] void refuse(const std::string& path, const std::string& bytes, bool deflated)
 {
   const std::string name = lowered(path);
@@ -71,10 +90,9 @@ bool is_text(const std::string& bytes)
   {
     fail(path, "is OpenVDB, which is not a dense volume", "read it with vtkBrumeOpenVDBReader");
   }
-  if (begins(bytes, "\x89PNG") || begins(bytes, "\xff\xd8\xff") || begins(bytes, "II*") ||
-    begins(bytes, std::string("MM\0*", 4)))
+  if (begins(bytes, "\xff\xd8\xff"))
   {
-    fail(path, "is a picture, not a volume", "join the slices to a volume (NRRD, MetaImage)");
+    fail(path, "is a JPEG picture, not a volume", "save the slices as TIFF or PNG");
   }
   if (begins(bytes, "\x89HDF"))
   {
@@ -94,7 +112,7 @@ bool is_text(const std::string& bytes)
   }
   if (ends(name, ".raw") || ends(name, ".bin") || ends(name, ".dat"))
   {
-    fail(path, "is raw data with no header", "describe it in a MetaImage header (.mhd) and name that");
+    fail(path, "is raw data with no header", raw_advice(path));
   }
   fail(path, deflated ? "is compressed, and what is in it is no volume" : "is no volume", Known);
 }
@@ -106,13 +124,17 @@ Format find_format(const std::string& path)
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
   {
-    return Format::Dicom; // the only format of folders; its reader looks into the files
+    return has_dicom(path) || pictures_in(path).empty() ? Format::Dicom : Format::Pictures;
   }
   if (file_length(path, path) == 0)
   {
     fail(path, "is empty", "copy or download it again");
   }
   const std::string name = lowered(path);
+  if (!sidecar_of(path).empty())
+  {
+    return Format::Raw; // raw bytes may look like anything: a description beside them goes first
+  }
   if (ends(name, ".img") || ends(name, ".img.gz"))
   {
     return Format::Nifti; // the header beside it is what can be examined
@@ -141,6 +163,16 @@ Format find_format(const std::string& path)
     if (bytes.size() >= 132 && bytes.compare(128, 4, "DICM") == 0)
     {
       return Format::Dicom;
+    }
+    if (begins(bytes, "\x89PNG") || begins(bytes, std::string("II*\0", 4)) ||
+      begins(bytes, std::string("MM\0*", 4)) || begins(bytes, std::string("II+\0", 4)) ||
+      begins(bytes, std::string("MM\0+", 4)))
+    {
+      return Format::Pictures;
+    }
+    if (ends(name, ".json"))
+    {
+      return Format::Raw;
     }
     if (begins(bytes, "NRRD000"))
     {

@@ -13,7 +13,9 @@ enum class Format
   Nrrd,
   Vti,
   LegacyVtk,
-  Dicom ///< a file, or a folder with any
+  Dicom, ///< a file, or a folder with any
+  Pictures, ///< TIFF or PNG, or a folder with any
+  Raw ///< voxels with a sidecar, or the sidecar
 };
 
 /// Finds the format in the content; throws fail() when it is none of these, with a remedy that

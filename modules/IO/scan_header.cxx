@@ -43,7 +43,12 @@ std::uint64_t ScanHeader::bytes() const
 
 void fail(const std::string& path, const std::string& wrong, const std::string& remedy)
 {
-  throw std::runtime_error(path + ": " + wrong + ": " + remedy);
+  std::string text = wrong + ": " + remedy;
+  for (char& c : text)
+  {
+    c = static_cast<unsigned char>(c) < 32 || c == 127 ? '?' : c; // of a damaged file's own words
+  }
+  throw std::runtime_error(path + ": " + text);
 }
 
 void check_header(const ScanHeader& header)
@@ -96,7 +101,7 @@ void check_header(const ScanHeader& header)
     {
       most = available > (std::uint64_t(1) << 50) ? wanted : available * 1032;
     }
-    else if (header.encoding == Encoding::Dicom)
+    else if (header.encoding == Encoding::Dicom || header.encoding == Encoding::Pictures)
     {
       most = available > 0 ? wanted : 0; // as many as a decoder likes to make
     }

@@ -33,7 +33,8 @@ enum class Encoding
   Raw,      ///< binary, as they are
   Deflated, ///< binary in a gzip or zlib stream
   Text,     ///< decimal numbers between blanks
-  Dicom     ///< compressed pictures in DICOM files
+  Dicom,    ///< compressed pictures in DICOM files
+  Pictures  ///< pages of picture files
 };
 
 class LineReader;
@@ -44,8 +45,8 @@ struct DataPart
   std::string path;
   std::uint64_t offset = 0; ///< bytes from the file's beginning (into the plain bytes if `inflated_offset`)
   std::uint64_t skip = 0; ///< bytes of stored numbers, once inflated, to pass over from there
-  std::uint64_t frame = 0;  ///< of the pictures in a file of Encoding::Dicom, which
-  std::uint64_t frames = 1; ///< and how many there are
+  std::uint64_t frame = 0;  ///< of the pictures in a file of Encoding::Dicom or Pictures, which
+  std::uint64_t frames = 1; ///< and, of Dicom, how many there are
 };
 
 struct ScanHeader

@@ -58,7 +58,8 @@ int value_type(const ScanHeader& header)
 double memory_need(const ScanHeader& header)
 {
   const double stored = static_cast<double>(header.bytes());
-  double need = stored;
+  // Pictures are decoded in a process of its own and handed over.
+  double need = header.encoding == Encoding::Pictures ? 2 * stored : stored;
   if ((header.planar || header.part_planar) && header.components > 1)
   {
     need = 2 * stored;

@@ -1,6 +1,8 @@
 #include "vdb_file.h"
 
 #include "file_access.h"
+#include "guarded_process.h"
+#include "memory_limit.h"
 #include "scan_header.h"
 #include "vdb_bricks.h"
 
@@ -11,10 +13,16 @@
 #include <openvdb/io/GridDescriptor.h>
 #include <openvdb/tools/LevelSetUtil.h>
 
+#include <sys/mman.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <fstream>
+#include <functional>
+#include <iostream>
+#include <sstream>
 #include <new>
 
 namespace brume::io
@@ -101,10 +109,28 @@ std::unique_ptr<openvdb::io::File> open_file(const std::string& path)
   return file;
 }
 
+/// Keeps from the standard error stream, while it lives, what OpenVDB says to it of files that it doubts.
+class Hush
+{
+public:
+  Hush()
+    : before_(std::cerr.rdbuf(&heard_))
+  {
+  }
+  ~Hush() { std::cerr.rdbuf(before_); }
+  Hush(const Hush&) = delete;
+  Hush& operator=(const Hush&) = delete;
+
+private:
+  std::stringbuf heard_;
+  std::streambuf* before_;
+};
+
 /// Calls work() and puts what OpenVDB throws into words.
 template <class Work>
 auto guarded(const std::string& path, const Work& work)
 {
+  const Hush hush;
   try
   {
     return work();
@@ -123,6 +149,79 @@ auto guarded(const std::string& path, const Work& work)
   }
 }
 
+/// Does `work` in a process of its own first: OpenVDB believes the counts and lengths in a file, which a
+/// damaged one turns into endless loops, memory without bounds and crashes. Throws what `work` throws
+/// there, and fail() where the process does not end by itself.
+void rehearse(const std::string& path,
+  const std::function<void()>& work,
+  double seconds,
+  double bytes,
+  const Progress& progress = {})
+{
+  constexpr std::size_t Room = 4096;
+  void* page = mmap(nullptr, Room, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (page == MAP_FAILED)
+  {
+    throw std::bad_alloc();
+  }
+  char* words = static_cast<char*>(page);
+  const GuardResult result = run_guarded(
+    [&]() -> int
+    {
+      try
+      {
+        work();
+        return 0;
+      }
+      catch (const std::bad_alloc&)
+      {
+        return 2;
+      }
+      catch (const std::exception& error)
+      {
+        std::strncpy(words, error.what(), Room - 1);
+        return 1;
+      }
+    },
+    seconds,
+    bytes,
+    progress);
+  const std::string error = words;
+  munmap(page, Room);
+  if (result.end != GuardEnd::Finished)
+  {
+    fail(path,
+      spoken_end(result.end),
+      result.end == GuardEnd::Stopped ? "run it again" : "write or copy it again");
+  }
+  if (result.status != 0)
+  {
+    throw std::runtime_error(!error.empty() ? error
+                                            : path + ": is damaged, or takes more memory to read than "
+                                                     "there is: write or copy it again");
+  }
+}
+
+/// Reads all voxels of a grid, and forgets them.
+template <class Grid>
+bool read_voxels_of(openvdb::GridBase& base)
+{
+  if (!base.isType<Grid>())
+  {
+    return false;
+  }
+  using Leaf = typename Grid::TreeType::LeafNodeType;
+  std::vector<Leaf*> leaves;
+  static_cast<Grid&>(base).tree().getNodes(leaves);
+  for (Leaf* leaf : leaves)
+  {
+    leaf->buffer().data();
+    typename Leaf::Buffer nothing(openvdb::PartialCreate(), typename Grid::ValueType(0));
+    leaf->swap(nothing);
+  }
+  return true;
+}
+
 }
 
 bool looks_like_vdb(const std::string& path)
@@ -132,17 +231,12 @@ bool looks_like_vdb(const std::string& path)
   return in.read(bytes, sizeof(bytes)) && std::equal(bytes, bytes + sizeof(bytes), Magic);
 }
 
-std::vector<VdbGrid> list_vdb_grids(const std::string& path)
+namespace
 {
-  const std::uint64_t length = file_length(path, path);
-  if (length == 0)
-  {
-    fail(path, "is empty", "copy or download it again");
-  }
-  if (!looks_like_vdb(path))
-  {
-    fail(path, "is not an OpenVDB file", "name a .vdb file");
-  }
+
+/// The grids, and whether the file is as long as they are.
+std::vector<VdbGrid> list_grids(const std::string& path, std::uint64_t length)
+{
   return guarded(path,
     [&]
     {
@@ -188,6 +282,24 @@ std::vector<VdbGrid> list_vdb_grids(const std::string& path)
       }
       return grids;
     });
+}
+
+}
+
+std::vector<VdbGrid> list_vdb_grids(const std::string& path)
+{
+  const std::uint64_t length = file_length(path, path);
+  if (length == 0)
+  {
+    fail(path, "is empty", "copy or download it again");
+  }
+  if (!looks_like_vdb(path))
+  {
+    fail(path, "is not an OpenVDB file", "name a .vdb file");
+  }
+  openvdb::initialize();
+  rehearse(path, [&] { list_grids(path, length); }, 1, 32 << 20);
+  return list_grids(path, length);
 }
 
 namespace
@@ -240,6 +352,22 @@ VdbVolume read_vdb_grid(const std::string& path,
           "its grid '" + which.name + "' " + which.refusal.substr(0, colon),
           which.refusal.substr(colon + 2));
       }
+      const double length = static_cast<double>(file_length(path, path));
+      rehearse(
+        path,
+        [&]
+        {
+          guarded(path,
+            [&]
+            {
+              const openvdb::GridBase::Ptr grid = open_file(path)->readGrid(which.name);
+              read_voxels_of<openvdb::FloatGrid>(*grid) ||
+                read_voxels_of<openvdb::DoubleGrid>(*grid);
+            });
+        },
+        1 + length / 5e6,
+        static_cast<double>(memory_limit(limit)),
+        [&](double) { return !progress || progress(0); });
       const auto file = open_file(path);
       const openvdb::GridBase::Ptr grid = file->readGrid(which.name);
       VdbVolume volume;

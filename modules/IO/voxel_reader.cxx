@@ -2,6 +2,7 @@
 
 #include "dicom_decode.h"
 #include "file_access.h"
+#include "picture_stack.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -300,6 +301,10 @@ void read_voxels(const ScanHeader& header, void* out, const Progress& progress)
   else if (header.encoding == Encoding::Dicom)
   {
     read_dicom(header, stored, progress);
+  }
+  else if (header.encoding == Encoding::Pictures)
+  {
+    read_pictures(header, stored, progress);
   }
   else
   {

@@ -25,7 +25,7 @@ struct vtkBrumeEnvironmentReader::Internals
   brume::io::EnvironmentPicture Picture; ///< between RequestInformation and RequestData
 
   /// Keeps what went wrong in place of the picture.
-  void Read(const char* path)
+  void Read(const char* path, vtkTypeInt64 limit)
   {
     this->Error.clear();
     this->Picture = brume::io::EnvironmentPicture();
@@ -36,7 +36,7 @@ struct vtkBrumeEnvironmentReader::Internals
         throw std::runtime_error(
           "vtkBrumeEnvironmentReader: no file name is set: call SetFileName");
       }
-      this->Picture = brume::io::read_environment(path);
+      this->Picture = brume::io::read_environment(path, static_cast<std::uint64_t>(limit));
     }
     catch (const std::bad_alloc&)
     {
@@ -72,7 +72,7 @@ int vtkBrumeEnvironmentReader::RequestInformation(vtkInformation*,
 {
   Internals& self = *this->Internal;
   this->SetErrorCode(vtkErrorCode::NoError);
-  self.Read(this->FileName);
+  self.Read(this->FileName, this->MaximumMemory);
   const int extent[6] = {
     0, self.Picture.width - 1, 0, self.Picture.height - 1, 0, self.Error.empty() ? 0 : -1
   };
@@ -100,7 +100,7 @@ int vtkBrumeEnvironmentReader::RequestData(vtkInformation*,
   }
   if (self.Picture.rgb.empty())
   {
-    self.Read(this->FileName); // the output had been released
+    self.Read(this->FileName, this->MaximumMemory); // the output had been released
     if (!self.Error.empty())
     {
       this->SetErrorCode(vtkErrorCode::FileFormatError);
@@ -123,5 +123,6 @@ void vtkBrumeEnvironmentReader::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << '\n';
+  os << indent << "MaximumMemory: " << this->MaximumMemory << '\n';
   os << indent << "ErrorMessage: " << this->GetErrorMessage() << '\n';
 }

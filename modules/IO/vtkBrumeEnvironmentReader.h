@@ -40,6 +40,15 @@ public:
   vtkGetFilePathMacro(FileName);
   ///@}
 
+  ///@{
+  /**
+   * The most bytes that reading may take; a picture that would take more is an error. Default: 0,
+   * three quarters of the machine's memory.
+   */
+  vtkSetClampMacro(MaximumMemory, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
+  vtkGetMacro(MaximumMemory, vtkTypeInt64);
+  ///@}
+
   /**
    * What went wrong in the last update, "FILE: what is wrong: what to do", without a line end;
    * empty when nothing did. Valid until the next update.
@@ -57,6 +66,7 @@ protected:
     vtkInformationVector* outputVector) override;
 
   char* FileName = nullptr;
+  vtkTypeInt64 MaximumMemory = 0;
 
 private:
   vtkBrumeEnvironmentReader(const vtkBrumeEnvironmentReader&) = delete;

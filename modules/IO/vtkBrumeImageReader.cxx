@@ -4,6 +4,8 @@
 #include "file_series.h"
 #include "memory_limit.h"
 #include "orientation.h"
+#include "picture_stack.h"
+#include "raw_header.h"
 #include "scan_format.h"
 #include "scan_header.h"
 #include "scan_values.h"
@@ -26,6 +28,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -78,6 +81,16 @@ struct vtkBrumeImageReader::Internals
     if (io::is_file_pattern(path))
     {
       this->Files = io::numbered_files(path);
+      const std::string first = this->Files[0].path;
+      if (io::find_format(first) == io::Format::Pictures &&
+        (this->Files.size() == 1 || io::count_pages(first) == 1))
+      {
+        this->Slices.swap(this->Files); // a stack of pictures, not volumes over time
+        this->OpenFile(path, progress);
+        this->Times = this->Header.times;
+        this->TimeUnit = this->Header.time_unit;
+        return;
+      }
       this->OpenFile(this->Files[0].path, progress);
       if (this->Files.size() > 1 && this->Header.times.size() > 1)
       {
@@ -94,12 +107,24 @@ struct vtkBrumeImageReader::Internals
     this->TimeUnit = this->Header.time_unit;
   }
 
+  std::vector<io::NumberedFile> Slices; // of a pattern that names pictures; else empty
+
+  /// The pictures that a path stands for; none for one file.
+  std::vector<io::NumberedFile> Stack(const std::string& path) const
+  {
+    std::error_code error;
+    return !this->Slices.empty()                    ? this->Slices
+      : std::filesystem::is_directory(path, error) ? io::pictures_in(path)
+                                                    : std::vector<io::NumberedFile>();
+  }
+
   /// One file, of a series the first volume.
   void OpenFile(const std::string& path, const io::Progress& progress)
   {
     this->Header = io::ScanHeader();
     this->Image = nullptr;
-    const io::Format format = io::find_format(path);
+    const io::Format format =
+      this->Slices.empty() ? io::find_format(path) : io::Format::Pictures;
     if (format == io::Format::LegacyVtk)
     {
       this->Header = io::read_legacy_header(path);
@@ -109,7 +134,7 @@ struct vtkBrumeImageReader::Internals
       this->Header = io::ScanHeader();
       io::VtkVolume volume = format == io::Format::Vti
         ? io::read_vti(path, this->MaximumMemory, progress)
-        : io::read_legacy(path, progress);
+        : io::read_legacy(path, this->MaximumMemory, progress);
       this->Image = volume.image;
       this->Format = volume.format;
       this->Messages = volume.messages;
@@ -122,6 +147,8 @@ struct vtkBrumeImageReader::Internals
     {
       this->Header = format == io::Format::Dicom
         ? io::read_dicom_header(path, this->Series, this->Choices)
+        : format == io::Format::Pictures         ? io::read_picture_header(path, this->Stack(path))
+        : format == io::Format::Raw              ? io::read_raw_header(path)
         : format == io::Format::Nifti            ? io::read_nifti_header(path)
         : format == io::Format::MetaImage        ? io::read_meta_header(path)
                                                  : io::read_nrrd_header(path);

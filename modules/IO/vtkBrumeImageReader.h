@@ -2,9 +2,11 @@
  * @class vtkBrumeImageReader
  * @brief Reads a scan or any other volume on a regular grid, upright and to scale.
  *
- * Opens DICOM (files, and folders with any below them), NIfTI-1, NIfTI-2 and Analyze 7.5 (.nii, .nii.gz, .hdr with .img), MetaImage (.mha, .mhd),
- * NRRD (.nrrd, .nhdr), VTK XML image data (.vti) and legacy VTK structured points (.vtk). The
- * format is found in the file's content; its name counts only where the content says nothing.
+ * Opens DICOM (files, and folders with any below them), NIfTI-1, NIfTI-2 and Analyze 7.5 (.nii,
+ * .nii.gz, .hdr with .img), MetaImage (.mha, .mhd), NRRD (.nrrd, .nhdr), TIFF of several pages,
+ * numbered TIFF or PNG pictures and folders of them, raw voxels with a sidecar, VTK XML image data
+ * (.vti) and legacy VTK structured points (.vtk). The format is found in the file's content; its name
+ * counts only where the content says nothing.
  *
  * The output is one vtkImageData with point scalars. Spacing, origin and direction matrix are set,
  * so that world = origin + direction * (spacing ∘ ijk). Where the format tells how the patient
@@ -18,8 +20,9 @@
  * of the file. When something is wrong, the output is empty, ErrorEvent is invoked, and
  * GetErrorMessage() holds one line. No message of an inner reader reaches the standard error
  * stream; with an observer of ErrorEvent on this object, nothing at all does. To that end,
- * vtkOutputWindow's instance and vtkLogger's verbosity on standard error are replaced while VTK's
- * own readers run (.vti, and rare layouts of .vtk): do not read those in two threads at once.
+ * VTK's own readers (.vti, and rare layouts of .vtk), OpenImageIO (pictures) and GDCM (compressed
+ * DICOM) run in a process of their own, with bounds on time and memory: what a damaged file does to
+ * them stays there.
  */
 #ifndef vtkBrumeImageReader_h
 #define vtkBrumeImageReader_h
@@ -40,7 +43,8 @@ public:
   /**
    * The file to read: for a pair of header and data (.hdr/.img, .mhd, .nhdr) the header; of
    * .hdr/.img either; of DICOM a file or a folder, with all that is below it. A name that is no file and holds %d, %04d, #### or * in place of a number stands
-   * for a series over time, one file a volume, at the times that their numbers are. Default: none.
+   * for a series over time, one file a volume, at the times that their numbers are; of pictures of one
+   * page for their stack. Default: none.
    */
   vtkSetFilePathMacro(FileName);
   vtkGetFilePathMacro(FileName);

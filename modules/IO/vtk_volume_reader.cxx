@@ -1,7 +1,9 @@
 #include "vtk_volume_reader.h"
 
 #include "file_access.h"
+#include "guarded_process.h"
 #include "header_text.h"
+#include "image_transfer.h"
 #include "memory_limit.h"
 
 #include "vtkAlgorithm.h"
@@ -26,8 +28,13 @@
 #include "vtkStructuredPointsReader.h"
 #include "vtkXMLImageDataReader.h"
 
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <functional>
 #include <limits>
+#include <new>
 
 namespace brume::io
 {
@@ -249,9 +256,7 @@ void stop_on_error(const std::string& path, const Listener& listener, const Mess
   }
 }
 
-}
-
-VtkVolume read_vti(const std::string& path, std::uint64_t limit, const Progress& progress)
+VtkVolume read_vti_here(const std::string& path, std::uint64_t limit, const Progress& progress)
 {
   const std::uint64_t length = file_length(path, path);
   const std::string head = read_range(path, 0, 1 << 16);
@@ -299,14 +304,125 @@ VtkVolume read_vti(const std::string& path, std::uint64_t limit, const Progress&
   const bool packed = opening.find("compressor") != std::string::npos;
   check_promise(path, voxels, static_cast<double>(length) * (lzma ? 10000 : packed ? 1100 : 8));
 
-  check_memory(path, memory_of(info, voxels), limit);
+  check_memory(path, 2 * memory_of(info, voxels), limit); // here, and where they are handed to
 
   reader->Update();
   stop_on_error(path, listener, trap);
   VtkVolume volume;
-  volume.format = "VTK XML image data";
   volume.image = reader->GetOutput();
   settle_scalars(volume, path);
+  return volume;
+}
+
+VtkVolume read_legacy_here(const std::string& path, const Progress& progress)
+{
+  MessageTrap trap;
+  Listener listener(progress);
+  vtkNew<vtkStructuredPointsReader> reader;
+  listener.listen(reader);
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  stop_on_error(path, listener, trap);
+  VtkVolume volume;
+  volume.image = vtkSmartPointer<vtkImageData>::New();
+  volume.image->ShallowCopy(reader->GetOutput());
+  settle_scalars(volume, path);
+  return volume;
+}
+
+/// Reads in a process of its own: VTK's readers believe the sizes of blocks and arrays that a file
+/// gives, which a damaged one turns into endless loops, memory without bounds and crashes.
+VtkVolume read_guarded(const std::string& path, std::uint64_t limit, const Progress& progress,
+  const std::function<VtkVolume(const Progress&)>& read)
+{
+  const double length = static_cast<double>(file_length(path, path));
+  const int file = memfd_create("brume", MFD_CLOEXEC);
+  void* page = mmap(nullptr, sizeof(double), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (file < 0 || page == MAP_FAILED)
+  {
+    throw std::bad_alloc();
+  }
+  double* const done = static_cast<double*>(page);
+  enum Status
+  {
+    Whole,
+    Refused,
+    NoMemory
+  };
+  const auto say = [file](const std::string& text)
+  { return write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size()); };
+  const auto work = [&]() -> int
+  {
+    try
+    {
+      const VtkVolume volume = read(
+        [done](double part)
+        {
+          *done = part;
+          return true;
+        });
+      return write_image(file, volume.image) ? Whole : NoMemory;
+    }
+    catch (const std::bad_alloc&)
+    {
+      return NoMemory;
+    }
+    catch (const std::exception& error)
+    {
+      return say(error.what()) ? Refused : NoMemory;
+    }
+  };
+  // A second and as long as a slow disk and a text of numbers take.
+  const GuardResult result = run_guarded(work, 1 + length / 5e6,
+    1.25 * static_cast<double>(memory_limit(limit)) + (64 << 20), progress, done);
+  munmap(page, sizeof(double));
+  VtkVolume volume;
+  std::string words;
+  bool no_memory = result.status == NoMemory;
+  if (result.end == GuardEnd::Finished && lseek(file, 0, SEEK_SET) == 0)
+  {
+    try
+    {
+      if (result.status == Whole)
+      {
+        volume.image = read_image(file);
+      }
+      else if (result.status == Refused)
+      {
+        char text[4096];
+        const ssize_t n = ::read(file, text, sizeof(text));
+        words.assign(text, n > 0 ? static_cast<std::size_t>(n) : 0);
+      }
+    }
+    catch (const std::bad_alloc&)
+    {
+      no_memory = true;
+    }
+  }
+  close(file);
+  if (result.end != GuardEnd::Finished)
+  {
+    fail(path, spoken_end(result.end), result.end == GuardEnd::Stopped ? "run it again" : Remedy);
+  }
+  if (no_memory)
+  {
+    throw std::bad_alloc();
+  }
+  if (!volume.image)
+  {
+    throw std::runtime_error(words.empty() ? path + ": VTK cannot read it: " + Remedy : words);
+  }
+  settle_scalars(volume, path); // again, for its messages
+  return volume;
+}
+
+}
+
+VtkVolume read_vti(const std::string& path, std::uint64_t limit, const Progress& progress)
+{
+  VtkVolume volume = read_guarded(path, limit, progress,
+    [&](const Progress& report) { return read_vti_here(path, limit, report); });
+  volume.format = "VTK XML image data";
   const auto told = [&volume](const char* name)
   {
     auto* text =
@@ -319,20 +435,11 @@ VtkVolume read_vti(const std::string& path, std::uint64_t limit, const Progress&
   return volume;
 }
 
-VtkVolume read_legacy(const std::string& path, const Progress& progress)
+VtkVolume read_legacy(const std::string& path, std::uint64_t limit, const Progress& progress)
 {
-  MessageTrap trap;
-  Listener listener(progress);
-  vtkNew<vtkStructuredPointsReader> reader;
-  listener.listen(reader);
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  stop_on_error(path, listener, trap);
-  VtkVolume volume;
+  VtkVolume volume = read_guarded(
+    path, limit, progress, [&](const Progress& report) { return read_legacy_here(path, report); });
   volume.format = "legacy VTK";
-  volume.image = vtkSmartPointer<vtkImageData>::New();
-  volume.image->ShallowCopy(reader->GetOutput());
-  settle_scalars(volume, path);
   return volume;
 }
 

@@ -1,5 +1,5 @@
-// VTK's own formats, through VTK's own readers, with their errors caught and what they do not
-// check checked. Private to this module.
+// VTK's own formats, through VTK's own readers in a process of its own (guarded_process.h), with their
+// errors caught and what they do not check checked. Private to this module.
 #pragma once
 
 #include "voxel_reader.h"
@@ -26,6 +26,6 @@ struct VtkVolume
 VtkVolume read_vti(const std::string& path, std::uint64_t limit, const Progress& progress);
 /// Legacy VTK structured points (.vtk) of the layouts that read_legacy_header() leaves to VTK. Throws
 /// fail().
-VtkVolume read_legacy(const std::string& path, const Progress& progress);
+VtkVolume read_legacy(const std::string& path, std::uint64_t limit, const Progress& progress);
 
 }

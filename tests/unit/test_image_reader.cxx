@@ -731,7 +731,7 @@ TEST(ImageReader, FilesThatAreNoVolume)
   expect_error(save(here + "a.dcm", std::string(128, '\0') + "DICM" + std::string(99, '\0')), "DICOM");
   expect_error(save(here + "a.vdb", std::string(" BDV\0\0\0\0", 8) + std::string(99, '\0')), "OpenVDB");
   expect_error(save(here + "a.png", "\x89PNG\r\n\x1a\n"), "picture");
-  expect_error(save(here + "a.raw", std::string(5000, '\3')), ".mhd");
+  expect_error(save(here + "a.raw", std::string(5000, '\3')), "a.raw.json");
   expect_error(save(here + "a.xyz", std::string(5000, '\3')), "is no volume");
   expect_error("/dev/null", "regular file");
   const std::string locked = save(here + "locked.nii", nifti_header(NiftiOptions()) + voxels());

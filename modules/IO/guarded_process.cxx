@@ -1,0 +1,123 @@
+#include "guarded_process.h"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <thread>
+
+namespace brume::io
+{
+
+namespace
+{
+
+/// Bytes of memory that a process holds by itself (not shared with files or others); 0 where unknown.
+double held_bytes(pid_t process)
+{
+  char path[64];
+  std::snprintf(path, sizeof(path), "/proc/%d/statm", static_cast<int>(process));
+  std::FILE* file = std::fopen(path, "r");
+  if (!file)
+  {
+    return 0;
+  }
+  unsigned long total = 0, resident = 0, shared = 0;
+  const int read = std::fscanf(file, "%lu %lu %lu", &total, &resident, &shared);
+  std::fclose(file);
+  return read == 3 ? static_cast<double>(resident - std::min(shared, resident)) *
+      static_cast<double>(sysconf(_SC_PAGESIZE))
+                   : 0;
+}
+
+}
+
+GuardResult run_guarded(const std::function<int()>& work, double seconds, double bytes,
+  const Progress& progress, const double* done)
+{
+  using Clock = std::chrono::steady_clock;
+  const double most = held_bytes(getpid()) + bytes;
+  GuardResult result;
+  std::fflush(nullptr); // what is buffered must not be written twice
+  const pid_t child = fork();
+  if (child == 0)
+  {
+    const int nowhere = open("/dev/null", O_WRONLY);
+    dup2(nowhere, 1);
+    dup2(nowhere, 2);
+    const rlimit none{ 0, 0 };
+    setrlimit(RLIMIT_CORE, &none);
+    const rlim_t quick = static_cast<rlim_t>(std::ceil(std::max(seconds, 1.0)));
+    const rlimit processor{ quick, quick + 1 };
+    setrlimit(RLIMIT_CPU, &processor);
+    std::signal(SIGALRM, SIG_DFL);
+    int status = 255;
+    try
+    {
+      status = work();
+    }
+    catch (...)
+    {
+    }
+    _exit(status);
+  }
+  if (child < 0)
+  {
+    return result;
+  }
+  const Clock::time_point end = Clock::now() +
+    std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(20 + 2 * seconds)); // a busy machine
+  auto pause = std::chrono::microseconds(100);
+  int status = 0;
+  result.end = GuardEnd::Finished;
+  while (waitpid(child, &status, WNOHANG) == 0)
+  {
+    const GuardEnd before = result.end;
+    if (before == GuardEnd::Finished)
+    {
+      result.end = Clock::now() > end                       ? GuardEnd::TooLate
+        : held_bytes(child) > most                          ? GuardEnd::TooLarge
+        : progress && !progress(done ? *done : 0) ? GuardEnd::Stopped
+                                                            : GuardEnd::Finished;
+      if (result.end != GuardEnd::Finished)
+      {
+        kill(child, SIGKILL);
+      }
+    }
+    std::this_thread::sleep_for(pause);
+    pause = std::min(2 * pause, std::chrono::microseconds(5000));
+  }
+  if (result.end == GuardEnd::Finished)
+  {
+    result.end = WIFEXITED(status)                            ? GuardEnd::Finished
+      : WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU ? GuardEnd::TooLate
+                                                              : GuardEnd::Crashed;
+    result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
+  }
+  return result;
+}
+
+const char* spoken_end(GuardEnd end)
+{
+  switch (end)
+  {
+    case GuardEnd::TooLate:
+      return "takes too long to read";
+    case GuardEnd::TooLarge:
+      return "takes more memory to read than the limit";
+    case GuardEnd::NotStarted:
+      return "cannot be read: no process can be started for it";
+    case GuardEnd::Stopped:
+      return "was not read to its end";
+    default:
+      return "is damaged so that its reader fails";
+  }
+}
+
+}
