@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <thread>
@@ -45,6 +46,20 @@ GuardResult run_guarded(const std::function<int()>& work, double seconds, double
   const double most = held_bytes(getpid()) + bytes;
   GuardResult result;
   std::fflush(nullptr); // what is buffered must not be written twice
+  // A parent that ignores the ends of its children would never learn how this one ended.
+  struct sigaction former{};
+  const bool ignored = sigaction(SIGCHLD, nullptr, &former) == 0 && former.sa_handler == SIG_IGN;
+  if (ignored)
+  {
+    std::signal(SIGCHLD, SIG_DFL);
+  }
+  const auto restore = [&]
+  {
+    if (ignored)
+    {
+      sigaction(SIGCHLD, &former, nullptr);
+    }
+  };
   const pid_t child = fork();
   if (child == 0)
   {
@@ -69,6 +84,7 @@ GuardResult run_guarded(const std::function<int()>& work, double seconds, double
   }
   if (child < 0)
   {
+    restore();
     return result;
   }
   const Clock::time_point end = Clock::now() +
@@ -76,7 +92,8 @@ GuardResult run_guarded(const std::function<int()>& work, double seconds, double
   auto pause = std::chrono::microseconds(100);
   int status = 0;
   result.end = GuardEnd::Finished;
-  while (waitpid(child, &status, WNOHANG) == 0)
+  pid_t ended = 0;
+  while ((ended = waitpid(child, &status, WNOHANG)) == 0 || (ended < 0 && errno == EINTR))
   {
     const GuardEnd before = result.end;
     if (before == GuardEnd::Finished)
@@ -92,6 +109,12 @@ GuardResult run_guarded(const std::function<int()>& work, double seconds, double
     }
     std::this_thread::sleep_for(pause);
     pause = std::min(2 * pause, std::chrono::microseconds(5000));
+  }
+  restore();
+  if (ended < 0) // somebody else has taken its end
+  {
+    result.end = GuardEnd::Crashed;
+    return result;
   }
   if (result.end == GuardEnd::Finished)
   {

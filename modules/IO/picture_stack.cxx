@@ -237,7 +237,9 @@ void place(ScanHeader& h, const Common& common)
   const std::string text = common.description;
   std::string unit = imagej(text, "unit");
   const bool by_imagej = !unit.empty();
-  unit = unit == "micron" || unit == "\\u00B5m" ? "um" : shortened(unit);
+  unit = unit == "micron" || unit == "\\u00B5m" ? "um"
+    : unit == "pixel" || unit == "pixels"        ? ""
+                                                 : shortened(unit);
   const std::string told = common.unit;
   const double per = by_imagej ? 1 : told == "cm" ? 10 : told == "in" || told == "inch" ? 25.4 : 0;
   double pixel[2] = { 1, 1 };
@@ -253,6 +255,12 @@ void place(ScanHeader& h, const Common& common)
     pixel[0] = per / common.pixel[0];
     pixel[1] = per / common.pixel[1];
     h.length_unit = by_imagej ? unit : "mm";
+  }
+  // What Brume writes of pixels that need not be squares (tiff_writer.cxx).
+  const double size[2] = { number(imagej(text, "pixel_width"), 0), number(imagej(text, "pixel_height"), 0) };
+  for (int axis = 0; axis < 2 && size[0] > 0 && size[1] > 0; ++axis)
+  {
+    pixel[axis] = size[axis];
   }
   const double between = number(imagej(text, "spacing"), 0);
   h.affine = { { pixel[0], 0, 0, 0, 0, pixel[1], 0, 0, 0, 0, between > 0 ? between : pixel[0], 0 } };

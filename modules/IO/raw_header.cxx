@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <set>
 
@@ -144,7 +145,17 @@ json parse(const std::string& path)
 std::string sidecar_of(const std::string& path)
 {
   std::error_code error;
-  return fs::is_regular_file(path + ".json", error) ? path + ".json" : std::string();
+  const std::string sidecar = path + ".json";
+  if (!fs::is_regular_file(sidecar, error))
+  {
+    return {};
+  }
+  // What `brume info FILE --json FILE.json` writes is no description of raw voxels.
+  std::string text(4096, '\0');
+  std::ifstream file(sidecar, std::ios::binary);
+  file.read(&text[0], static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return text.find("\"scalar_type\"") == std::string::npos ? sidecar : std::string();
 }
 
 std::string raw_advice(const std::string& path)

@@ -7,7 +7,6 @@
 
 #include <OpenImageIO/imageio.h>
 
-#include <cmath>
 #include <stdexcept>
 
 namespace brume::io
@@ -59,14 +58,9 @@ void tell_losses(ImageFile& image)
     image.messages.push_back("a TIFF holds no unit of values: '" + image.value_unit + "' is lost");
   }
   const std::array<double, 3> spacing = image.spacing();
-  for (int axis = 0; axis < 2; ++axis)
+  if (spacing[0] != spacing[1])
   {
-    const double read = 1.0 / static_cast<float>(1.0 / spacing[axis]);
-    if (std::abs(read / spacing[axis] - 1.0) > 1e-12)
-    {
-      image.messages.push_back("a TIFF holds the size of its pixels in single precision");
-      return;
-    }
+    image.messages.push_back("its pixels are no squares, which of this TIFF Brume alone reads");
   }
 }
 
@@ -93,7 +87,10 @@ void write_tiff(ImageFile& image, const std::string& path)
   // Without a unit ImageJ's readers would take the size of a pixel for none.
   const std::string unit = image.length_unit.empty() ? "pixel" : image.length_unit;
   spec.attribute("ImageDescription", "ImageJ=1.53t\nimages=" + slices + "\nslices=" + slices +
-      "\nunit=" + unit + "\nspacing=" + exact(spacing[2]) + "\nloop=false\n");
+      "\nunit=" + unit + "\nspacing=" + exact(spacing[2]) +
+      "\npixel_width=" + exact(spacing[0]) + "\npixel_height=" + exact(spacing[1]) +
+      "\nloop=false\n");
+  // OpenImageIO writes the resolution of square pixels alone; the two lines above hold any.
   spec.attribute("XResolution", static_cast<float>(1.0 / spacing[0]));
   spec.attribute("YResolution", static_cast<float>(1.0 / spacing[1]));
   spec.attribute("ResolutionUnit", "none");

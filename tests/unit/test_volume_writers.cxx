@@ -257,7 +257,7 @@ TEST(ImageWriter, TiffHoldsVoxelsAndSpacing)
       for (int axis = 0; axis < 3; ++axis)
       {
         EXPECT_EQ(read->GetDimensions()[axis], image->GetDimensions()[axis]);
-        EXPECT_NEAR(read->GetSpacing()[axis], image->GetSpacing()[axis], 1e-6);
+        EXPECT_DOUBLE_EQ(read->GetSpacing()[axis], image->GetSpacing()[axis]);
       }
       vtkDataArray* out = read->GetPointData()->GetScalars();
       vtkDataArray* in = image->GetPointData()->GetScalars();
