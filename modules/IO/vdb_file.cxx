@@ -98,12 +98,26 @@ std::string spoken_name(const openvdb::io::GridDescriptor& grid)
   return openvdb::io::GridDescriptor::nameAsString(grid.uniqueName());
 }
 
+/// Whether this is a process of rehearse(). Threads do not come along into it, so that nothing may ask
+/// TBB for work there, as OpenVDB's trees do when they are destroyed: what is made there stays.
+bool rehearsing = false;
+
+template <class Pointer>
+void keep_in_rehearsal(const Pointer& pointer)
+{
+  if (rehearsing)
+  {
+    new Pointer(pointer); // until the process ends
+  }
+}
+
 /// The file, open, with its header checked. Delayed loading: leaves are read when they are asked
 /// for.
-std::unique_ptr<openvdb::io::File> open_file(const std::string& path)
+std::shared_ptr<openvdb::io::File> open_file(const std::string& path)
 {
   openvdb::initialize();
-  auto file = std::make_unique<openvdb::io::File>(path);
+  auto file = std::make_shared<openvdb::io::File>(path);
+  keep_in_rehearsal(file);
   file->setCopyMaxBytes(0); // no private copy of it in a temporary folder
   file->open();
   return file;
@@ -168,6 +182,7 @@ void rehearse(const std::string& path,
   const GuardResult result = run_guarded(
     [&]() -> int
     {
+      rehearsing = true;
       try
       {
         work();
@@ -274,6 +289,7 @@ std::vector<VdbGrid> list_grids(const std::string& path, std::uint64_t length)
       for (const std::string& name : names)
       {
         const openvdb::GridBase::Ptr grid = file->readGridMetadata(name);
+        keep_in_rehearsal(grid);
         grids.push_back({ name,
           type_of(*grid),
           kind_of(*grid),
@@ -361,6 +377,7 @@ VdbVolume read_vdb_grid(const std::string& path,
             [&]
             {
               const openvdb::GridBase::Ptr grid = open_file(path)->readGrid(which.name);
+              keep_in_rehearsal(grid);
               read_voxels_of<openvdb::FloatGrid>(*grid) ||
                 read_voxels_of<openvdb::DoubleGrid>(*grid);
             });
