@@ -66,8 +66,8 @@ struct CumulusOptions
 /// stretched over [0, 1]. The spheres are piled in three generations: towers on the base, buds on
 /// the towers, buds on the buds.
 ///
-/// Density is exactly 0 within 0.02 width of the box's faces, and outside the box: a grid of 26
-/// voxels a side or more has an empty border.
+/// Density is exactly 0 within 0.02 width of the box's faces, and outside the box: a grid
+/// whose voxels are no larger than 0.04 width has an empty border.
 ///
 /// Throws std::invalid_argument from the constructor for options out of their range.
 class Cumulus : public Field

@@ -21,6 +21,7 @@ namespace
 using glm::dvec3;
 
 constexpr double most_particles = 2e7;
+constexpr double most_steps = 1e10;
 
 bool finite(const dvec3& v)
 {
@@ -92,6 +93,8 @@ ParticleCloud::ParticleCloud(const ParticleCloudOptions& options)
     alive += e.rate * options.life;
   }
   require(alive <= most_particles, "more than 20 million would be alive at once");
+  require(alive * (options.life / options.step) <= most_steps,
+    "a moment would take more than 10^10 steps of particles: shorten the life or lower the rate");
 }
 
 std::vector<Particle> ParticleCloud::particles(double time) const

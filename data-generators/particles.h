@@ -74,8 +74,8 @@ double amount_of(const Particle& particle);
 class ParticleCloud
 {
 public:
-  /// Throws std::invalid_argument for options out of their range, and for more than 20 million
-  /// particles alive at once.
+  /// Throws std::invalid_argument for options out of their range, for more than 20 million
+  /// particles alive at once, and for more than 10^10 steps: those alive times life/step.
   explicit ParticleCloud(const ParticleCloudOptions& options = {});
 
   /// Those alive at a time, ordered by emitter and number. Runs on all threads that TBB gives. A

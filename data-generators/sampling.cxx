@@ -27,6 +27,11 @@ Lattice grid_over(const Box& box, int size)
   {
     throw std::invalid_argument("a grid needs a box with a volume");
   }
+  const glm::dvec3 centre = 0.5 * (box.lower + box.upper);
+  if (!std::isfinite(side.x + side.y + side.z) || !std::isfinite(centre.x + centre.y + centre.z))
+  {
+    throw std::invalid_argument("a grid needs a box whose sides and place are finite");
+  }
   Lattice grid;
   const double step = std::max({ side.x, side.y, side.z }) / size;
   grid.spacing = glm::dvec3(step);

@@ -12,6 +12,9 @@ namespace brume
 Shape::Shape(std::shared_ptr<const ShapeNode> node)
   : m_node(std::move(node))
 {
+  shapes::require(m_node->cost <= 1e5,
+    "a distance would be the work of more than 100000 shapes: take fewer parts, or fewer repeats "
+    "within repeats");
 }
 
 double Shape::distance(const glm::dvec3& place) const

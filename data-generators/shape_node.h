@@ -20,6 +20,8 @@ struct ShapeNode
   virtual Box reach(double level) const = 0;
 
   double lipschitz = 1.0;
+  /// How many nodes distance() asks at most, itself among them.
+  double cost = 1.0;
   bool exact_outside = true;
   bool exact_inside = true;
 };

@@ -47,6 +47,7 @@ struct Union : ShapeNode
       const ShapeNode& part = parts[i].node();
       boxes.push_back(part.reach(0.0));
       lipschitz = std::max(i == 0 ? 0.0 : lipschitz, part.lipschitz);
+      cost += part.cost;
       exact_outside = exact_outside && part.exact_outside;
       exact_inside = exact_inside && part.exact_inside;
       for (std::size_t j = 0; j < i && exact_inside; ++j)
@@ -66,7 +67,7 @@ struct Union : ShapeNode
   }
   Box reach(double level) const override
   {
-    Box box = parts.front().node().reach(level);
+    Box box{ dvec3(infinity), dvec3(-infinity) };
     for (const Shape& part : parts)
     {
       box = joined(box, part.node().reach(level));
@@ -85,6 +86,7 @@ struct Intersection : ShapeNode
     exact_outside = parts.size() == 1 && parts.front().exact_outside();
     for (const Shape& part : parts)
     {
+      cost += part.node().cost;
       lipschitz = std::max(lipschitz, part.lipschitz());
       exact_inside = exact_inside && part.exact_inside();
     }
@@ -115,6 +117,7 @@ struct Complement : ShapeNode
   explicit Complement(const Shape& part)
     : part(part)
   {
+    cost = 1.0 + part.node().cost;
     lipschitz = part.lipschitz();
     exact_outside = part.exact_inside();
     exact_inside = part.exact_outside();
@@ -132,6 +135,7 @@ struct SmoothUnion : ShapeNode
     , b(b)
     , width(width)
   {
+    cost = 1.0 + a.node().cost + b.node().cost;
     lipschitz = std::max(a.lipschitz(), b.lipschitz());
     exact_outside = false;
     exact_inside = false;
@@ -157,6 +161,7 @@ struct SmoothIntersection : ShapeNode
     , b(b)
     , width(width)
   {
+    cost = 1.0 + a.node().cost + b.node().cost;
     lipschitz = std::max(a.lipschitz(), b.lipschitz());
     exact_outside = false;
     exact_inside = false;
@@ -180,6 +185,7 @@ struct Waves : ShapeNode
     , amplitude(amplitude)
     , frequency(2.0 * pi / wavelength)
   {
+    cost = 1.0 + part.node().cost;
     lipschitz = part.lipschitz() + std::fabs(amplitude) * frequency;
     exact_outside = exact_inside = false;
   }
@@ -202,6 +208,7 @@ struct Noise : ShapeNode
     , size(size)
     , key(substream(seed, 60))
   {
+    cost = 1.0 + part.node().cost;
     lipschitz = part.lipschitz() + 4.0 * std::fabs(amplitude) / size;
     exact_outside = exact_inside = false;
   }
@@ -221,6 +228,7 @@ struct Grown : ShapeNode
     : part(part)
     , radius(radius)
   {
+    cost = 1.0 + part.node().cost;
     lipschitz = part.lipschitz();
     exact_outside = part.exact_outside() && radius >= 0.0;
     exact_inside = false;
@@ -240,6 +248,7 @@ struct Shell : ShapeNode
     : part(part)
     , half(0.5 * thickness)
   {
+    cost = 1.0 + part.node().cost;
     lipschitz = part.lipschitz();
     exact_outside = part.exact_outside() && part.exact_inside();
     exact_inside = false;

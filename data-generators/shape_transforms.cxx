@@ -26,6 +26,7 @@ struct Rigid : ShapeNode
     , back(glm::transpose(turn))
     , by(by)
   {
+    cost = 1.0 + part.node().cost;
     lipschitz = part.lipschitz();
     exact_outside = part.exact_outside();
     exact_inside = part.exact_inside();
@@ -62,6 +63,7 @@ struct Scaled : ShapeNode
     : part(part)
     , factor(factor)
   {
+    cost = 1.0 + part.node().cost;
     lipschitz = part.lipschitz();
     exact_outside = part.exact_outside();
     exact_inside = part.exact_inside();
@@ -112,6 +114,7 @@ struct Repeated : ShapeNode
       nearest_unasked = std::min(nearest_unasked, 0.5 * spacing[a]);
     }
     require(most <= 1000.0, "repeat: the shape is too wide for so small a spacing");
+    cost = 1.0 + most * part.node().cost;
   }
 
   bool along(int a) const { return spacing[a] > 0.0 && first[a] < last[a]; }
@@ -195,6 +198,7 @@ struct Twisted : ShapeNode
     require(std::isfinite(wide.x) && std::isfinite(wide.y),
       "twist: the shape must be bounded in x and y");
     radius = std::sqrt(wide.x * wide.x + wide.y * wide.y);
+    cost = 1.0 + part.node().cost;
     const double shear = std::fabs(turn) * radius;
     lipschitz = std::max(part.lipschitz() * 0.5 * (shear + std::sqrt(shear * shear + 4.0)), 1.0);
     exact_outside = exact_inside = false;

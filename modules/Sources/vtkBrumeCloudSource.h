@@ -9,8 +9,8 @@
  *
  * World units are metres, x and y around 0, z up. A cumulus' box is Width x Width x 0.6 Width, with
  * its base at 0.08 Width, unless BaseHeight and TopHeight say otherwise; nothing of it comes nearer
- * to the box's faces than 0.02 Width, so from Size = 26 on all outer voxels are exactly 0. Boxes
- * and formulas of all kinds, and where they come from: data-generators/clouds.h and cumulus.h.
+ * to the box's faces than 0.02 Width, so all outer voxels are exactly 0 where voxels are no larger
+ * than 0.04 Width (from Size = 26 on, unless the box is higher than wide). Boxes and formulas of all kinds, and where they come from: data-generators/clouds.h and cumulus.h.
  *
  * Each kind has defaults of its own, which SetKind() puts in place: set the kind first. Those named
  * below are a cumulus'.

@@ -42,8 +42,8 @@ public:
 
   ///@{
   /**
-   * How many emitters there are. One stands in the middle of the box's floor, more stand evenly on
-   * a ring of a quarter of the Width. Default 1, range 1 to 64; outside it the nearest end.
+   * How many emitters there are. One stands in the middle of x and y, more stand evenly on a ring
+   * with a radius of a quarter of the Width; all of them 0.1 Width above the box's floor. Default 1, range 1 to 64; outside it the nearest end.
    */
   vtkSetClampMacro(NumberOfEmitters, int, 1, 64);
   vtkGetMacro(NumberOfEmitters, int);
@@ -51,14 +51,21 @@ public:
 
   ///@{
   /**
-   * Radius of an emitter, metres (default 0.15, not below 0), how many particles a second it emits
-   * (default 1500, not below 0), and their speed upwards at first, metres a second (default 3, any
-   * finite value).
+   * Radius of an emitter, metres (default 0.15, not below 0), and how many particles a second it
+   * emits (default 1500, not below 0).
    */
   vtkSetMacro(EmitterRadius, double);
   vtkGetMacro(EmitterRadius, double);
   vtkSetMacro(Rate, double);
   vtkGetMacro(Rate, double);
+  ///@}
+
+  ///@{
+  /**
+   * The particles' speed upwards at first, metres a second (default 3, any finite value), and the
+   * spread of their first velocities: each differs from that by a vector drawn evenly from a ball
+   * of this radius, metres a second (default 1, not below 0).
+   */
   vtkSetMacro(Speed, double);
   vtkGetMacro(Speed, double);
   vtkSetMacro(Spread, double);
@@ -76,7 +83,9 @@ public:
 
   ///@{
   /**
-   * How long a particle lives, seconds: each from 0.6 to 1 times that. Default 5, above 0.
+   * How long a particle lives, seconds: each from 0.6 to 1 times that. Default 5, above 0. Too
+   * long a life is an error: emitters * Rate * Life may be 2e7 at most (those alive at once), and
+   * that times the number of time steps in a life 1e10.
    */
   vtkSetMacro(Life, double);
   vtkGetMacro(Life, double);

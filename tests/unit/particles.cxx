@@ -229,6 +229,12 @@ TEST(Particles, RefuseOptionsThatMakeNone)
   refused([](brume::ParticleCloudOptions& o) { o.response = std::nan(""); });
   refused([](brume::ParticleCloudOptions& o) { o.step = 1e-9; });
   refused([](brume::ParticleCloudOptions& o) { o.emitters.front().rate = 1e9; });
+  refused(
+    [](brume::ParticleCloudOptions& o)
+    {
+      o.emitters.front().rate = 100.0; // 1e6 alive at once, 2.5e5 steps each
+      o.life = 1e4;
+    });
   refused([](brume::ParticleCloudOptions& o) { o.emitters.front().place.y = std::nan(""); });
 }
 

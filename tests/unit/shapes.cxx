@@ -741,6 +741,30 @@ TEST(ShapeText, TellsWhereItIsWrong)
   EXPECT_NE(message(many + ")").find("more than 5000"), std::string::npos);
 }
 
+TEST(ShapeText, NestingTakesNoMoreThanItsShapes)
+{
+  std::string nested = "(sphere 1)";
+  for (int n = 0; n < 150; ++n)
+  {
+    nested = "(unite " + nested + ")";
+  }
+  EXPECT_EQ(brume::shape_from_text(nested).bounds().upper.x, 1.0); // at once
+  // Repeats multiply: 27 copies asked, of 27, of 27, of 27.
+  Shape many = shapes::sphere(1.0);
+  many = shapes::repeated(many, dvec3(1.5), glm::ivec3(100));
+  many = shapes::repeated(many, dvec3(148.0), glm::ivec3(100));
+  many = shapes::repeated(many, dvec3(14000.0), glm::ivec3(100));
+  EXPECT_THROW(shapes::repeated(many, dvec3(1400000.0), glm::ivec3(100)), std::invalid_argument);
+}
+
+TEST(Grid, NeedsABoxThatIsFinite)
+{
+  const double endless = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(
+    brume::grid_over({ dvec3(0.0), dvec3(1.0, endless, 1.0) }, 8), std::invalid_argument);
+  EXPECT_THROW(brume::grid_over({ dvec3(-1.5e308), dvec3(1.5e308) }, 8), std::invalid_argument);
+}
+
 TEST(PortableMath, SinesAndCosinesAreRight)
 {
   Numbers random(9);
