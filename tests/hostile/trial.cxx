@@ -24,7 +24,7 @@ extern "C" void __sanitizer_set_report_fd(void*);
 
 // The runtime's own habits: it must tell a request that is too large by failing, as malloc does, and
 // keep little of what was freed.
-extern "C" const char* __asan_default_options()
+extern "C" __attribute__((visibility("default"))) const char* __asan_default_options()
 {
   return "allocator_may_return_null=1:quarantine_size_mb=16:detect_leaks=1";
 }
