@@ -1,6 +1,7 @@
 #include "vdb_file.h"
 
 #include "file_access.h"
+#include "header_text.h"
 #include "guarded_process.h"
 #include "memory_limit.h"
 #include "scan_header.h"
@@ -65,7 +66,7 @@ public:
 [[noreturn]] void fail_openvdb(const std::string& path, const std::exception& error)
 {
   fail(path,
-    "OpenVDB cannot read it (" + std::string(error.what()) + ")",
+    "OpenVDB cannot read it (" + shortened(std::string(error.what()).substr(0, 200)) + ")",
     "it may be damaged: write or copy it again");
 }
 
