@@ -113,7 +113,7 @@ void run(const Options& options)
       volume.backgrounds[array->GetName()] = background_of(array);
     }
   }
-  if (points && !output.background && output.grid_class != "level-set")
+  if (points && !output.background && output.grid_class != "level-set" && !volume.signed_distance)
   {
     output.background = background_of(points->GetScalars());
     char text[64];

@@ -13,7 +13,6 @@
 
 #include <cmath>
 #include <fstream>
-#include <sstream>
 
 namespace brume::app
 {
@@ -333,13 +332,21 @@ Make declare_particles(CLI::App& command)
 /// A whole text file, of at most a mebibyte.
 std::string text_of(const std::string& path)
 {
-  std::ifstream in(path);
-  std::stringstream text;
-  if (!in || !(text << in.rdbuf()))
+  constexpr std::streamsize Most = 1 << 20;
+  std::ifstream in(path, std::ios::binary);
+  std::string text(Most + 1, '\0');
+  in.read(text.data(), Most + 1); // a device may have no end
+  const std::streamsize count = in.gcount();
+  if (count == 0)
   {
     throw Failure(path, "it cannot be read, or is empty", "name a file that describes a shape");
   }
-  return text.str();
+  if (count > Most)
+  {
+    throw Failure(path, "it is longer than 1 MiB", "name a file that describes a shape");
+  }
+  text.resize(static_cast<std::size_t>(count));
+  return text;
 }
 
 Make declare_shape(CLI::App& command)

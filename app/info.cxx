@@ -133,13 +133,18 @@ Json describe_sparse(const Input& input, const VolumeSummary& summary)
     j["physical_size"].push_back(finite(dimensions[a] * spacing[a]));
   }
   j["origin"] = { finite(corner[0]), finite(corner[1]), finite(corner[2]) };
-  j["patient_axes"] = false;
-  j["orientation"] = nullptr;
+  std::array<double, 9> direction;
+  for (int i = 0; i < 9; ++i)
+  {
+    direction[i] = matrix->GetElement(i / 3, i % 3) / spacing[i % 3];
+  }
+  j["patient_axes"] = input.patient_axes;
+  j["orientation"] = input.patient_axes ? Json(anatomical_code(direction)) : Json(nullptr);
   j["direction"] = Json::array();
   for (int row = 0; row < 3; ++row)
   {
-    j["direction"].push_back({ matrix->GetElement(row, 0) / spacing[0],
-      matrix->GetElement(row, 1) / spacing[1], matrix->GetElement(row, 2) / spacing[2] });
+    j["direction"].push_back(
+      { direction[3 * row], direction[3 * row + 1], direction[3 * row + 2] });
   }
   j["scalar_type"] = voxels.type() == VoxelType::Float16 ? "half" : "float";
   j["components"] = 1;
@@ -218,10 +223,12 @@ Json describe(const Input& input, const VolumeSummary& summary)
 }
 
 /// How deep the values are as a density.
-void add_optical_depth(const Input& input, double extinction, Json& j)
+void add_optical_depth(const Input& input, const Options& options, Json& j)
 {
+  const double extinction = options.extinction;
   const std::array<AxisDepth, 3> depths = input.sparse
-    ? optical_depths(input.sparse.Get(), extinction)
+    ? optical_depths(input.sparse.Get(), extinction, input.name,
+        static_cast<std::uint64_t>(options.choice.max_memory))
     : optical_depths(input.image.Get(), extinction);
   Json axes = Json::array();
   for (const AxisDepth& depth : depths)
@@ -328,8 +335,8 @@ void print(std::ostream& out, const Json& j, const VolumeSummary& summary)
       const Json& along = depth["axes"][axis];
       line(axis == 0 ? "optical depth" : "",
         std::string("along axis ") + "ijk"[axis] + ": median " +
-          number(along["median"].get<double>()) + ", largest " +
-          number(along["largest"].get<double>()) + ", of " +
+          value_text(along["median"], "") + ", largest " + value_text(along["largest"], "") +
+          ", of " +
           std::to_string(along["lines"].get<std::uint64_t>()) + " lines of voxels that meet matter");
     }
   }
@@ -349,7 +356,7 @@ void run(const Options& options)
   Json description = input.sparse ? describe_sparse(input, summary) : describe(input, summary);
   if (options.extinction > 0.0)
   {
-    add_optical_depth(input, options.extinction, description);
+    add_optical_depth(input, options, description);
   }
   if (!options.json.empty())
   {

@@ -192,7 +192,7 @@ Input open_sparse(const std::string& path, const InputChoice& choice, const Prog
   {
     vtkNew<vtkBrumeOpenVDBReader> reader;
     reader->SetGridName(grid.empty() ? nullptr : grid.c_str());
-    reader->SetLevelSets(choice.level_set == "distance"
+    reader->SetLevelSets(choice.chosen_level_set.value_or(choice.level_set) == "distance"
         ? vtkBrumeOpenVDBReader::LevelSetsAsDistances
         : vtkBrumeOpenVDBReader::LevelSetsAsFog);
     read(reader.Get(), path, choice, progress, input);
@@ -245,6 +245,11 @@ Input open_input(const std::string& spec, const Progress& progress, const InputC
   {
     throw Failure("--grid " + choice.grid, spec + " is not an OpenVDB file, which has grids to choose from",
       "leave it out", BadCall);
+  }
+  if (choice.chosen_level_set && !sparse)
+  {
+    throw Failure("--level-set " + *choice.chosen_level_set,
+      spec + " is not an OpenVDB file, which may hold level sets", "leave it out", BadCall);
   }
   if (!choice.series.empty() && (sample || !std::filesystem::is_directory(spec)))
   {

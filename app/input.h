@@ -50,6 +50,8 @@ struct InputChoice
   std::optional<double> time;   ///< the same by its time: the nearest
   std::int64_t max_memory = 0;  ///< bytes; 0: three quarters of the machine's
   std::string level_set = "fog"; ///< of an OpenVDB file: "fog" (a density) or "distance" (as it is)
+  std::optional<std::string> chosen_level_set; ///< the same where the user says it, which files of
+                                               ///< other formats refuse; empty: level_set
   bool all_grids = false; ///< without a grid by name, the others too, into Input::more_sparse
 };
 

@@ -1,5 +1,7 @@
 #include "optical_depth.h"
 
+#include "memory_limit.h"
+
 #include "Transport/sparse_voxels.h"
 
 #include "vtkBrumeSparseVolume.h"
@@ -93,6 +95,23 @@ std::array<AxisDepth, 3> depths_of(const T* values,
 /// The lines of one axis that go through bricks, 64 to a column of bricks.
 using Columns = std::unordered_map<std::uint64_t, std::array<double, 64>>;
 
+/// The most that these lines and their depths take: a column for each brick and for each place of a
+/// tile, and no more than the box has.
+double bytes_of_columns(const SparseVoxels& voxels, int axis)
+{
+  const int u = (axis + 1) % 3;
+  const int v = (axis + 2) % 3;
+  double columns = static_cast<double>(voxels.places().size());
+  for (const BrickBox& tile : voxels.tiles())
+  {
+    columns += (tile.last[u] - tile.first[u] + 1.0) * (tile.last[v] - tile.first[v] + 1.0);
+  }
+  // A box that is not at a brick's corner touches one more brick along each axis.
+  const double box = (voxels.dims()[u] / 8.0 + 2) * (voxels.dims()[v] / 8.0 + 2);
+  constexpr double node = sizeof(Columns::value_type) + 4 * sizeof(void*);
+  return std::min(columns, box) * (node + 64 * sizeof(double));
+}
+
 }
 
 std::array<AxisDepth, 3> optical_depths(vtkImageData* image, double extinction)
@@ -109,9 +128,16 @@ std::array<AxisDepth, 3> optical_depths(vtkImageData* image, double extinction)
   return {};
 }
 
-std::array<AxisDepth, 3> optical_depths(vtkBrumeSparseVolume* volume, double extinction)
+std::array<AxisDepth, 3> optical_depths(vtkBrumeSparseVolume* volume,
+  double extinction,
+  const std::string& name,
+  std::uint64_t max_memory)
 {
   const SparseVoxels& voxels = *volume->GetVoxels();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    io::check_memory(name, bytes_of_columns(voxels, axis), max_memory);
+  }
   double spacing[3];
   volume->GetSpacing(spacing);
   const double background = density(voxels.background());

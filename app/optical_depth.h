@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 
 class vtkBrumeSparseVolume;
 class vtkImageData;
@@ -25,6 +26,11 @@ struct AxisDepth
 /// so that the sum is exact along these lines: dense volumes end at their outer voxels, which count
 /// half; sparse ones fall off to the background, and end one voxel beyond what is stored.
 std::array<AxisDepth, 3> optical_depths(vtkImageData* image, double extinction);
-std::array<AxisDepth, 3> optical_depths(vtkBrumeSparseVolume* volume, double extinction);
+/// Throws std::runtime_error where the lines would take more than `max_memory` bytes (0: three quarters
+/// of the machine's), naming the volume by `name`.
+std::array<AxisDepth, 3> optical_depths(vtkBrumeSparseVolume* volume,
+  double extinction,
+  const std::string& name,
+  std::uint64_t max_memory);
 
 }

@@ -56,9 +56,10 @@ struct Options
   DisplayOptions display;
 };
 
-bool ends_with_exr(const std::string& path)
+bool ends_with(const std::string& path, const std::string& ending)
 {
-  return path.size() > 4 && CLI::detail::to_lower(path.substr(path.size() - 4)) == ".exr";
+  return path.size() > ending.size() &&
+    CLI::detail::to_lower(path.substr(path.size() - ending.size())) == ending;
 }
 
 struct Drawn
@@ -212,7 +213,7 @@ void run(const Options& options)
 {
   if (options.output.empty())
   {
-    throw Failure("--output", "it names no file", "name one that ends in .png or .exr", BadCall);
+    throw Failure("--output", "it names no file", "name one that ends in .png, .exr or .hdr", BadCall);
   }
   try
   {
@@ -222,10 +223,10 @@ void run(const Options& options)
   {
     throw Failure(error.what(), BadCall);
   }
-  if (ends_with_exr(options.output) && options.display.changes_light())
+  if (!ends_with(options.output, ".png") && options.display.changes_light())
   {
     throw Failure(options.display.exposure != 0.0 ? "--exposure" : "--display-curve",
-      "an EXR holds linear light as it is", "leave it out, or write a .png", BadCall);
+      "EXR and HDR hold linear light as it is", "leave it out, or write a .png", BadCall);
   }
   const MapperName& mapper = find_mapper(options.mapper, "--mapper");
   check(options.scene);
@@ -260,16 +261,24 @@ void run(const Options& options)
   nlohmann::json statistics = nlohmann::json::parse(drawn.statistics);
   statistics["exposure"] = options.display.exposure;
   statistics["display_curve"] = options.display.curve;
-  if (ends_with_exr(options.output))
+  const Film& film = drawn.film;
+  if (ends_with(options.output, ".exr"))
   {
-    write_exr(drawn.film, options.output,
+    write_exr(film, options.output,
       { { "brume:input", options.scene.input }, { "brume:mapper", options.mapper },
         { "brume:preset", options.scene.preset } });
   }
   else
   {
-    write_png(over_scene(drawn.film, scene, drawn.surfaces), drawn.film.width, drawn.film.height,
-      options.output, options.display.display());
+    const std::vector<float> picture = over_scene(film, scene, drawn.surfaces);
+    if (ends_with(options.output, ".hdr"))
+    {
+      write_hdr(picture, film.width, film.height, options.output);
+    }
+    else
+    {
+      write_png(picture, film.width, film.height, options.output, options.display.display());
+    }
   }
   if (!options.stats.empty())
   {
@@ -309,8 +318,8 @@ void add_render(CLI::App& program)
   command->get_option("INPUT")->required(false);
   command
     ->add_option("--output,-o", options->output,
-      "The picture: .png as a screen shows it, or .exr with linear radiance, transmittance and "
-      "depth")
+      "The picture: .png as a screen shows it, .exr with linear radiance, transmittance and "
+      "depth, or .hdr with linear light over the background")
     ->required()
     ->type_name("FILE");
   command

@@ -83,7 +83,7 @@ void add_input(CLI::App& command, std::string& input, InputChoice& choice)
     .add_option("--grid", choice.grid, "Which grid of an OpenVDB file [the first that can be read]")
     ->type_name("NAME");
   command
-    .add_option("--level-set", choice.level_set,
+    .add_option("--level-set", choice.chosen_level_set,
       "What becomes of an OpenVDB file's level set: fog (a density, 0 at the surface, 1 from the band's "
       "depth on) or distance (as it is) [" + choice.level_set + "]")
     ->check(one_of({ "fog", "distance" }))

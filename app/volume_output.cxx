@@ -78,6 +78,28 @@ std::vector<std::string> run(Writer* writer, const std::string& path, const Prog
   return messages;
 }
 
+/// Why a level set takes no background of the user's.
+const char* const level_set = "a level set has the width of its band for a background";
+
+/// What turns out only once the volume is there: the background is the volume's own.
+void check_background(const Input& volume, const VolumeOutput& output)
+{
+  if (!output.background && !(output.tolerance > 0.0))
+  {
+    return;
+  }
+  const char* option = output.background ? "--background" : "--background-tolerance";
+  if (volume.sparse)
+  {
+    throw Failure(
+      option, volume.name + " is sparse and has a background of its own", "leave it out", BadCall);
+  }
+  if (volume.signed_distance && output.grid_class == "auto")
+  {
+    throw Failure(option, level_set, "leave it out", BadCall);
+  }
+}
+
 }
 
 bool holds_sparse(const std::string& path)
@@ -183,6 +205,14 @@ void check_volume_output(const VolumeOutput& output, const std::string& input)
   {
     refuse("--grid-class", alone);
   }
+  if (output.grid_class == "level-set" && output.background)
+  {
+    refuse("--background", level_set);
+  }
+  if (output.grid_class == "level-set" && output.tolerance > 0.0)
+  {
+    refuse("--background-tolerance", level_set);
+  }
   check_output(output.path, input);
 }
 
@@ -199,6 +229,7 @@ std::vector<std::string> write_volume(const Input& volume,
   };
   if (holds_sparse(output.path))
   {
+    check_background(volume, output);
     vtkNew<vtkBrumeOpenVDBWriter> writer;
     settle(writer.Get());
     for (const auto& grid : volume.more_sparse)

@@ -92,6 +92,9 @@ double ExactField::optical_depth(const dvec3& origin,
 {
   const double length = glm::length(direction);
   require(length > 0.0 && std::isfinite(length), "a line needs a direction");
+  require(std::isfinite(origin.x) && std::isfinite(origin.y) && std::isfinite(origin.z),
+    "a line needs an origin that is finite");
+  require(!std::isnan(from) && !std::isnan(to), "a line's ends must be numbers");
   const dvec3 along = direction / length;
   for (int a = 0; a < 3 && from < to; ++a)
   {

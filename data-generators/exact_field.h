@@ -26,8 +26,9 @@ public:
   /// The integral of the density along the line origin + s direction/|direction|, for s from `from`
   /// to `to` world units (not above `to`, else 0; both may be infinite): the optical depth of
   /// matter whose extinction is the density, per world unit. Relative error: some 1e-15, times
-  /// 1/(the length within matter) in units of the distance from the origin. The direction must not
-  /// be of length 0.
+  /// 1/(the length within matter) in units of the distance from the origin. Throws
+  /// std::invalid_argument for an origin or direction that is not finite, a direction of length 0,
+  /// and ends that are NaN.
   double optical_depth(const glm::dvec3& origin,
     const glm::dvec3& direction,
     double from,

@@ -69,7 +69,10 @@ float perlin_worley_noise(const glm::dvec3& place,
   const NoiseOctaves& octaves,
   const NoisePeriod& period)
 {
-  return one_lane::perlin_worley(lane_of(place), seed, octaves, period);
+  const one_lane::Place lane = lane_of(place);
+  return octaves.count > 0 && one_lane::is_valid(lane)
+           ? one_lane::perlin_worley(lane, seed, octaves, period)
+           : 0.0f;
 }
 
 glm::dvec3 warp(const glm::dvec3& place, double scale, double amplitude, std::uint32_t seed)
@@ -94,8 +97,8 @@ NoiseField::NoiseField(const NoiseOptions& options)
   require(above_zero(options.feature_size), "the size of the features must be above 0");
   require(options.octaves.count >= 1 && options.octaves.count <= 24, "the octaves must be 1 to 24");
   require(above_zero(options.octaves.lacunarity), "the lacunarity must be above 0");
-  require(options.octaves.gain >= 0.0 && std::isfinite(options.octaves.gain),
-    "the gain must be 0 or above");
+  require(
+    options.octaves.gain >= 0.0 && options.octaves.gain <= 1e6, "the gain must be 0 to 1000000");
   require(std::isfinite(options.warp_amplitude) && std::isfinite(options.warp_size),
     "the warp must be finite");
   require(options.kind != NoiseKind::Simplex ||
@@ -110,7 +113,8 @@ Box NoiseField::bounds() const
 
 float NoiseField::value(const glm::dvec3& place, double) const
 {
-  return one_lane::noise_of(m_options, lane_of(place));
+  const one_lane::Place lane = lane_of(place);
+  return one_lane::is_valid(lane) ? one_lane::noise_of(m_options, lane) : 0.0f;
 }
 
 void NoiseField::values(const PlaceBlock& places, double, float* out) const

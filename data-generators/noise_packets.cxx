@@ -12,8 +12,10 @@ BRUME_LANES_BEGIN
 
 void noise_packets_target(const NoiseOptions& options, const PlaceBlock& places, float* out)
 {
-  for_each_packet(
-    places, out, [&options](const Place& p, const Box&) { return noise_of(options, p); });
+  for_each_packet(places,
+    out,
+    [&options](const Place& p, const Box&)
+    { return select(is_valid(p), noise_of(options, p), real(0.0f)); });
 }
 
 BRUME_LANES_END

@@ -7,6 +7,7 @@
 #include "data-generators/signed_distance.h"
 #include "data-generators/torso_anatomy.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace brume
@@ -37,10 +38,12 @@ double liver(const dvec3& p)
   d = smooth_union(d, ellipsoid_distance(p, dvec3(6.0, 32.0, 4.0), dvec3(62.0, 36.0, 30.0)), 22.0);
   d =
     smooth_union(d, ellipsoid_distance(p, dvec3(78.0, 0.0, -62.0), dvec3(34.0, 44.0, 44.0)), 16.0);
-  // Cut by the underside, which slants up to the left, and by what it lies against.
+  // Cut by the underside, which slants up to the left and goes down 44 mm to the right lobe's tip
+  // (its slope stays below 1), and by what it lies against.
+  const double left = 0.75 * std::max(62.0 - p.x, 0.0);
   const double underside =
-    0.55 * (-46.0 - p.z + 0.75 * (62.0 - p.x) * (p.x < 62.0 ? 1.0 : 0.0)) - 0.12 * (p.y - 20.0);
-  d = smooth_intersection(d, p.x > 70.0 ? -90.0 - p.z : underside, 8.0);
+    0.55 * (-46.0 - p.z + left - 44.0 * smooth_ramp(p.x, 62.0, 107.0)) - 0.12 * (p.y - 20.0);
+  d = smooth_intersection(d, underside, 8.0);
   d = smooth_intersection(d, std::max(under_diaphragm(p) + 2.0, within_ribs(p) + 2.0), 3.0);
   return smooth_difference(
     d, ellipsoid_distance(p, dvec3(48.0, -46.0, -72.0), dvec3(34.0, 30.0, 52.0)), 8.0);

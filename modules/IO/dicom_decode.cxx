@@ -5,8 +5,6 @@
 
 #include <gdcmImageReader.h>
 
-#include <sys/mman.h>
-
 #include <cstring>
 #include <new>
 #include <set>
@@ -61,20 +59,14 @@ std::vector<unsigned char> decode_dicom(const std::string& owner, const std::str
   const char* const remedy = "decompress it first (gdcmconv --raw IN OUT)";
   const std::string place = owner == path ? owner : owner + ": " + path;
   std::vector<unsigned char> pixels(bytes);
-  void* shared =
-    mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (shared == MAP_FAILED)
-  {
-    throw std::bad_alloc();
-  }
-  const GuardResult result = run_guarded([&] { return decode(path, shared, bytes, scalar_size, frames); },
+  const SharedMemory shared(bytes);
+  const GuardResult result = run_guarded([&] { return decode(path, shared.data(), bytes, scalar_size, frames); },
     1 + static_cast<double>(bytes) / 4e6, 8 * static_cast<double>(bytes) + (256 << 20));
   const bool done = result.end == GuardEnd::Finished && result.status == Decoded;
   if (done)
   {
-    std::memcpy(pixels.data(), shared, bytes);
+    std::memcpy(pixels.data(), shared.data(), bytes);
   }
-  munmap(shared, bytes);
   if (!done)
   {
     const bool finished = result.end == GuardEnd::Finished;

@@ -166,6 +166,9 @@ std::uint64_t DicomFile::frame_bytes() const
   return static_cast<std::uint64_t>(width) * height * components * scalar_size(scalar);
 }
 
+/// Frames of one file: what each takes beside its pixels bounds their number.
+constexpr std::uint64_t MostFrames = 65536;
+
 DicomFile read_dicom_file(const std::string& path)
 {
   DicomFile file;
@@ -227,6 +230,13 @@ DicomFile read_dicom_file(const std::string& path)
 
   const int told = whole(meta->Get(DC::NumberOfFrames));
   const std::uint64_t frames = static_cast<std::uint64_t>(std::max(told, 1));
+  if (frames > MostFrames)
+  {
+    fail(path,
+      "it has " + std::to_string(frames) + " frames, and Brume reads up to " +
+        std::to_string(MostFrames),
+      "split it");
+  }
   const std::uint64_t most = file.layout.encapsulated
     ? file.layout.fragments
     : file.layout.pixel_length / std::max<std::uint64_t>(file.frame_bytes(), 1);

@@ -88,7 +88,7 @@ std::size_t choose(
   std::string list;
   for (std::size_t i = 0; i < choices.size(); ++i)
   {
-    if (choices[i].uid == wanted || (is_number && number == i + 1))
+    if ((!wanted.empty() && choices[i].uid == wanted) || (is_number && number == i + 1))
     {
       return i;
     }

@@ -48,7 +48,8 @@ bool alike(const Slice& a, const Slice& b)
   const DicomFile& f = *a.file;
   const DicomFile& g = *b.file;
   bool same = f.width == g.width && f.height == g.height && f.components == g.components &&
-    f.planar == g.planar && f.scalar == g.scalar && f.layout.big_endian == g.layout.big_endian &&
+    f.planar == g.planar && f.scalar == g.scalar && f.bits == g.bits &&
+    f.layout.big_endian == g.layout.big_endian &&
     f.layout.encapsulated == g.layout.encapsulated &&
     a.frame->placed == b.frame->placed;
   for (int i = 0; i < 6; ++i)

@@ -1,6 +1,7 @@
 #include "film_io.h"
 
 #include "atomic_file.h"
+#include "picture_threads.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -51,6 +52,12 @@ void check_size(const std::string& path, int width, int height, bool right)
   }
 }
 
+void check_interleaved(const std::string& path, const std::vector<float>& rgb, int width, int height)
+{
+  check_size(path, width, height,
+    width > 0 && height > 0 && rgb.size() == 3 * static_cast<std::size_t>(width) * height);
+}
+
 /// One line: what a library says may have several.
 std::string one_line(std::string text)
 {
@@ -62,6 +69,7 @@ std::string one_line(std::string text)
 std::vector<unsigned char> encode(const std::string& path, const std::string& format,
   const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* pixels)
 {
+  io::keep_picture_threads_out();
   std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);
   const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format, &memory);
@@ -83,11 +91,11 @@ std::vector<unsigned char> encode(const std::string& path, const std::string& fo
 void check_picture_path(const std::string& path)
 {
   const std::string ending = ending_of(path);
-  if (ending != ".png" && ending != ".exr")
+  if (ending != ".png" && ending != ".exr" && ending != ".hdr")
   {
     fail(path, ending.empty() ? "has no ending that names a format"
                               : "its ending " + ending + " is no format that Brume writes",
-      "name a file that ends in .png or .exr");
+      "name a file that ends in .png, .exr or .hdr");
   }
 }
 
@@ -162,6 +170,7 @@ Film read_exr(const std::string& path)
   {
     fail(path, "no such file", "check the path");
   }
+  io::keep_picture_threads_out();
   const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path);
   if (!input)
   {
@@ -212,8 +221,8 @@ void write_png(const std::vector<float>& rgb, int width, int height, const std::
   const Display& display)
 {
   want_ending(path, ".png");
-  const std::size_t row_size = width > 0 ? 3 * static_cast<std::size_t>(width) : 0;
-  check_size(path, width, height, height > 0 && rgb.size() == row_size * height);
+  check_interleaved(path, rgb, width, height);
+  const std::size_t row_size = 3 * static_cast<std::size_t>(width);
   if (!std::isfinite(display.exposure))
   {
     fail(path, "the exposure is not a finite number", "give it in stops, such as 0 or -1.5");
@@ -236,6 +245,28 @@ void write_png(const Film& film, const double background[3], const std::string& 
   const Display& display)
 {
   write_png(over_background(film, background), film.width, film.height, path, display);
+}
+
+void write_hdr(
+  const std::vector<float>& rgb, int width, int height, const std::string& path)
+{
+  want_ending(path, ".hdr");
+  check_interleaved(path, rgb, width, height);
+  const std::size_t row_size = 3 * static_cast<std::size_t>(width);
+  std::vector<float> pixels(rgb.size());
+  for (int row = 0; row < height; ++row) // the file begins at the top
+  {
+    // The format has no signs, infinities or NaN; its largest number is below 2^127.
+    std::transform(rgb.begin() + static_cast<std::ptrdiff_t>(row_size * (height - 1 - row)),
+      rgb.begin() + static_cast<std::ptrdiff_t>(row_size * (height - row)),
+      pixels.begin() + static_cast<std::ptrdiff_t>(row_size * row),
+      [](float v) { return v > 0 ? std::min(v, 1.6e38f) : 0.0f; });
+  }
+  OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::FLOAT);
+  spec.attribute("Software", "Brume " BRUME_VERSION);
+  const std::vector<unsigned char> bytes =
+    encode(path, "hdr", spec, OIIO::TypeDesc::FLOAT, pixels.data());
+  write_atomically(path, bytes.data(), bytes.size());
 }
 
 }

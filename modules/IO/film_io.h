@@ -1,4 +1,4 @@
-// Pictures to and from files: linear light as OpenEXR, what a screen shows as PNG.
+// Pictures to and from files: linear light as OpenEXR and Radiance HDR, what a screen shows as PNG.
 #pragma once
 
 #include "vtkBrumeIOModule.h" // the export macro alone
@@ -54,8 +54,14 @@ VTKBRUMEIO_EXPORT void write_png(const std::vector<float>& rgb, int width, int h
 VTKBRUMEIO_EXPORT void write_png(const Film& film, const double background[3],
   const std::string& path, const Display& display = {});
 
-/// Throws std::runtime_error, "PATH: what is wrong: what to do", unless the path ends in .png or
-/// .exr (any case): for a call that should fail before the work and not after it.
+/// Writes a picture as Radiance HDR: linear light, R, G, B with one exponent, within 1/256 of the
+/// largest of the three. `rgb` as for write_png(); what is negative or no number becomes 0. Throws
+/// as write_exr() does, with .hdr.
+VTKBRUMEIO_EXPORT void write_hdr(
+  const std::vector<float>& rgb, int width, int height, const std::string& path);
+
+/// Throws std::runtime_error, "PATH: what is wrong: what to do", unless the path ends in .png, .exr or
+/// .hdr (any case): for a call that should fail before the work and not after it.
 VTKBRUMEIO_EXPORT void check_picture_path(const std::string& path);
 
 }

@@ -1,6 +1,7 @@
 #include "guarded_process.h"
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -11,10 +12,27 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <new>
 #include <thread>
 
 namespace brume::io
 {
+
+SharedMemory::SharedMemory(std::size_t bytes)
+  : bytes_(bytes)
+  , data_(mmap(
+      nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0))
+{
+  if (data_ == MAP_FAILED)
+  {
+    throw std::bad_alloc();
+  }
+}
+
+SharedMemory::~SharedMemory()
+{
+  munmap(data_, bytes_);
+}
 
 namespace
 {

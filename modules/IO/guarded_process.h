@@ -4,11 +4,27 @@
 
 #include "voxel_reader.h" // for Progress
 
-#include <cstdint>
+#include <cstddef>
 #include <functional>
 
 namespace brume::io
 {
+
+/// Memory of zeroes that this process shares with those that run_guarded() starts while it lives. Throws
+/// std::bad_alloc where there is none. Pages that nobody writes take none.
+class SharedMemory
+{
+public:
+  explicit SharedMemory(std::size_t bytes);
+  ~SharedMemory();
+  SharedMemory(const SharedMemory&) = delete;
+  SharedMemory& operator=(const SharedMemory&) = delete;
+  void* data() const { return data_; }
+
+private:
+  std::size_t bytes_;
+  void* data_;
+};
 
 /// How such a process ended.
 enum class GuardEnd

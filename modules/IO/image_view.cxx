@@ -8,6 +8,7 @@
 #include "vtkType.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <type_traits>
 
 namespace brume::io
@@ -45,7 +46,8 @@ Scalar scalar_of_vtk(int type)
   {
     vtkTemplateMacro(return scalar_of<VTK_TT>());
   }
-  return Scalar::Float64;
+  throw std::runtime_error("VTK's type of numbers " + std::to_string(type) +
+    " is none that is written: convert the array to another");
 }
 
 ImageFile view_of(vtkImageData* image, const std::string& path)

@@ -14,7 +14,8 @@ namespace brume::io
 /// fail() with `path` for an image with no voxels, no scalars or scalars of single bits.
 ImageFile view_of(vtkImageData* image, const std::string& path);
 
-/// One of VTK's types of numbers, by its size and sign.
+/// One of VTK's types of numbers, by its size and sign. Throws std::runtime_error for what is none,
+/// such as VTK_BIT.
 Scalar scalar_of_vtk(int type);
 
 }

@@ -1,6 +1,8 @@
 // How much memory a volume may take. Private to this module.
 #pragma once
 
+#include "vtkBrumeIOModule.h" // the export macro alone
+
 #include <cstdint>
 #include <string>
 
@@ -12,6 +14,6 @@ std::uint64_t memory_limit(std::uint64_t chosen);
 
 /// Throws fail() when `bytes` are more than memory_limit(limit): what a volume larger than that takes
 /// would be granted page by page, and then end the program with no word.
-void check_memory(const std::string& path, double bytes, std::uint64_t limit);
+VTKBRUMEIO_EXPORT void check_memory(const std::string& path, double bytes, std::uint64_t limit);
 
 }

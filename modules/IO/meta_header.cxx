@@ -124,7 +124,8 @@ void orient(ScanHeader& h, const Keys& keys, std::size_t rank)
   }
   else if (h.patient)
   {
-    h.length_unit = "mm"; // ITK's convention
+    // ITK's convention is mm; Brume's own writer names another unit in the comment.
+    convert_to_millimetres(h, h.length_unit.empty() ? "mm" : h.length_unit);
   }
 }
 

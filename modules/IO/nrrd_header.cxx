@@ -435,6 +435,10 @@ ScanHeader read_nrrd_header(const std::string& path)
   {
     add_data_files(path, lines, data, list, skip, h);
   }
+  if (const std::string name = trimmed(field(fields, "content")); !name.empty())
+  {
+    h.array = shortened(name);
+  }
   if (const std::string unit = field(fields, "sampleunits"); !unit.empty())
   {
     h.value_unit = unit.front() == '"' && unit.size() > 1 ? unit.substr(1, unit.size() - 2) : unit;

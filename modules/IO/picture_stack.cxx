@@ -3,10 +3,9 @@
 #include "file_access.h"
 #include "guarded_process.h"
 #include "header_text.h"
+#include "picture_threads.h"
 
 #include <OpenImageIO/imageio.h>
-
-#include <sys/mman.h>
 
 #include <algorithm>
 #include <cctype>
@@ -26,29 +25,6 @@ namespace
 
 const char* const Remedy = "check that the files are whole, or save them again";
 
-/// Memory that this process and one of its own share.
-class Shared
-{
-public:
-  explicit Shared(std::size_t bytes)
-    : bytes_(bytes)
-    , data_(mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0))
-  {
-    if (data_ == MAP_FAILED)
-    {
-      throw std::bad_alloc();
-    }
-  }
-  ~Shared() { munmap(data_, bytes_); }
-  Shared(const Shared&) = delete;
-  Shared& operator=(const Shared&) = delete;
-  void* data() const { return data_; }
-
-private:
-  std::size_t bytes_;
-  void* data_;
-};
-
 /// What all pictures of a stack have in common, in shared memory.
 struct Common
 {
@@ -63,7 +39,7 @@ struct Common
 
 std::unique_ptr<OIIO::ImageInput> open_picture(const std::string& path)
 {
-  OIIO::attribute("threads", 1); // a process of its own has one
+  keep_picture_threads_out();
   OIIO::ImageSpec config;
   config["oiio:UnassociatedAlpha"] = 1; // numbers as they are stored
   return OIIO::ImageInput::open(path, &config);
@@ -191,7 +167,7 @@ double bytes_of(const std::vector<std::string>& paths)
 
 Common look_guarded(const std::string& owner, const std::vector<std::string>& paths)
 {
-  const Shared shared(sizeof(Common));
+  const SharedMemory shared(sizeof(Common));
   Common& common = *new (shared.data()) Common();
   const GuardResult result = run_guarded([&] { return look(paths, common); },
     1 + static_cast<double>(paths.size()) / 100 + bytes_of(paths) / 2e7, 256 << 20);
@@ -375,8 +351,8 @@ void read_pictures(const ScanHeader& header, unsigned char* out, const Progress&
     OIIO::TypeDesc::INT64, OIIO::TypeDesc::UINT64, OIIO::TypeDesc::FLOAT, OIIO::TypeDesc::DOUBLE };
   const OIIO::TypeDesc type(types[static_cast<int>(header.scalar)]);
   const std::size_t each = header.bytes() / header.parts.size();
-  const Shared pixels(header.bytes());
-  const Shared page(sizeof(double));
+  const SharedMemory pixels(header.bytes());
+  const SharedMemory page(sizeof(double));
   auto* const done = static_cast<double*>(page.data());
   const auto work = [&]() -> int
   {

@@ -60,7 +60,7 @@ struct ScanHeader
   bool planar = false; ///< components lie one volume after another, rather than voxel by voxel
   bool part_planar = false; ///< the same within each part
   Scalar scalar = Scalar::UInt8;
-  int stored_bits = 0; ///< of signed numbers, the lowest that count; 0: all
+  int stored_bits = 0; ///< of whole numbers, the lowest that count; 0: all
   bool swap_bytes = false; ///< the file's byte order is not this machine's
   Encoding encoding = Encoding::Raw;
   /// The offset of the data counts inflated bytes (NIfTI: header and data share one gzip stream),

@@ -1,8 +1,8 @@
 #include "vdb_file.h"
 
 #include "file_access.h"
-#include "header_text.h"
 #include "guarded_process.h"
+#include "header_text.h"
 #include "memory_limit.h"
 #include "scan_header.h"
 #include "vdb_bricks.h"
@@ -13,8 +13,6 @@
 #include <openvdb/io/File.h>
 #include <openvdb/io/GridDescriptor.h>
 #include <openvdb/tools/LevelSetUtil.h>
-
-#include <sys/mman.h>
 
 #include <algorithm>
 #include <cmath>
@@ -174,12 +172,8 @@ void rehearse(const std::string& path,
   const Progress& progress = {})
 {
   constexpr std::size_t Room = 4096;
-  void* page = mmap(nullptr, Room, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  if (page == MAP_FAILED)
-  {
-    throw std::bad_alloc();
-  }
-  char* words = static_cast<char*>(page);
+  const SharedMemory page(Room);
+  char* words = static_cast<char*>(page.data());
   const GuardResult result = run_guarded(
     [&]() -> int
     {
@@ -203,7 +197,6 @@ void rehearse(const std::string& path,
     bytes,
     progress);
   const std::string error = words;
-  munmap(page, Room);
   if (result.end != GuardEnd::Finished)
   {
     fail(path,
@@ -331,7 +324,7 @@ std::string told(const openvdb::GridBase& grid, const char* name)
 
 /// Distances to densities, in place. The band's width is the background, which OpenVDB divides by.
 template <class Grid>
-void make_fog(const std::string& path, const VdbGrid& which, Grid& grid, VdbVolume& volume)
+void make_fog(const std::string& path, const VdbGrid& which, Grid& grid, std::uint64_t limit, VdbVolume& volume)
 {
   const auto band = grid.background();
   if (!std::isfinite(band) || !(band > 0))
@@ -341,6 +334,12 @@ void make_fog(const std::string& path, const VdbGrid& which, Grid& grid, VdbVolu
         ", which is no width of a band",
       "read it as distances, or repair it (LevelSetRebuild)");
   }
+  // Every leaf is loaded and changed in place.
+  using Leaf = typename Grid::TreeType::LeafNodeType;
+  check_memory(path,
+    static_cast<double>(grid.tree().leafCount()) *
+      static_cast<double>(sizeof(Leaf) + Leaf::SIZE * sizeof(typename Leaf::ValueType)),
+    limit);
   openvdb::tools::sdfToFogVolume(grid);
   volume.active_voxels = grid.activeVoxelCount();
   volume.level_set = false;
@@ -411,7 +410,7 @@ VdbVolume read_vdb_grid(const std::string& path,
         {
           if (which.level_set && level_set_to_fog)
           {
-            make_fog(path, which, typed, volume);
+            make_fog(path, which, typed, limit, volume);
           }
           volume.voxels = take_voxels(typed.tree(), half, path, limit, progress);
         };

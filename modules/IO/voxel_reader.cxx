@@ -130,7 +130,18 @@ void extend_sign(T* numbers, std::size_t count, int bits)
   }
 }
 
-void extend_signs(const ScanHeader& header, void* out)
+/// The bits above those that count may hold anything: they become 0.
+template <typename T>
+void mask_bits(T* numbers, std::size_t count, int bits)
+{
+  const T mask = static_cast<T>((std::uint64_t(1) << bits) - 1);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    numbers[i] &= mask;
+  }
+}
+
+void keep_stored_bits(const ScanHeader& header, void* out)
 {
   const std::size_t count = header.voxels() * header.components;
   if (header.stored_bits < 1 || header.stored_bits >= 8 * scalar_size(header.scalar))
@@ -145,6 +156,12 @@ void extend_signs(const ScanHeader& header, void* out)
       return extend_sign(static_cast<std::int16_t*>(out), count, header.stored_bits);
     case Scalar::Int32:
       return extend_sign(static_cast<std::int32_t*>(out), count, header.stored_bits);
+    case Scalar::UInt8:
+      return mask_bits(static_cast<std::uint8_t*>(out), count, header.stored_bits);
+    case Scalar::UInt16:
+      return mask_bits(static_cast<std::uint16_t*>(out), count, header.stored_bits);
+    case Scalar::UInt32:
+      return mask_bits(static_cast<std::uint32_t*>(out), count, header.stored_bits);
     default:
       return;
   }
@@ -320,7 +337,7 @@ void read_voxels(const ScanHeader& header, void* out, const Progress& progress)
         header.components, scalar_size(header.scalar));
     }
   }
-  extend_signs(header, out);
+  keep_stored_bits(header, out);
 }
 
 void reverse_axis(

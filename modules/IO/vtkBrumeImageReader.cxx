@@ -52,6 +52,7 @@ std::string spoken_times(const std::vector<double>& times, const std::string& un
 struct vtkBrumeImageReader::Internals
 {
   std::string Error;
+  bool Opened = false; // else the error is one of opening, and no time step can be read
   std::vector<std::string> Messages;
   std::string Format;
   std::string LengthUnit;
@@ -67,6 +68,7 @@ struct vtkBrumeImageReader::Internals
   std::vector<double> Times;
   std::string TimeUnit;
   std::vector<io::NumberedFile> Files;
+  static constexpr std::size_t NoVolume = static_cast<std::size_t>(-1);
   std::size_t Taken = 0; // the volume that Header, Frame and Image are of
 
   std::string Series; // the one that is wanted
@@ -238,14 +240,15 @@ struct vtkBrumeImageReader::Internals
       return;
     }
     const Lattice first = this->First;
+    this->Taken = NoVolume; // until it is known to be one of the series
     this->OpenFile(this->Files[index].path, progress);
-    this->Taken = index;
     if (!(this->GetLattice() == first))
     {
       io::fail(this->Files[index].path,
         "is not of the size and type of the series' first, " + this->Files[0].path,
         "name the files of one series");
     }
+    this->Taken = index;
   }
   Lattice First{ { { 0, 0, 0 } }, VTK_VOID, 0 };
 
@@ -434,6 +437,7 @@ int vtkBrumeImageReader::RequestInformation(
     this->SetErrorCode(vtkErrorCode::FileFormatError);
     vtkErrorMacro(<< self.Error);
   }
+  self.Opened = self.Error.empty();
   return 1; // the output is empty then; a failure here would only repeat the error in other words
 }
 
@@ -443,10 +447,12 @@ int vtkBrumeImageReader::RequestData(
   Internals& self = *this->Internal;
   vtkImageData* output = vtkImageData::GetData(outputVector);
   output->Initialize();
-  if (!self.Error.empty())
+  if (!self.Opened)
   {
     return 1; // RequestInformation has said it
   }
+  self.Error.clear(); // of another time step
+  this->SetErrorCode(vtkErrorCode::NoError);
   try
   {
     const io::Progress progress = [this](double done)

@@ -4,6 +4,7 @@
 #include "header_text.h"
 #include "image_file.h"
 #include "image_view.h"
+#include "scan_header.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkCallbackCommand.h"
@@ -244,6 +245,11 @@ void vtkBrumeImageWriter::WriteData()
         io::write_nifti(file, this->FileName);
     }
     self.Messages.insert(self.Messages.end(), file.messages.begin(), file.messages.end());
+    const bool named = kind == Kind::Vti || kind == Kind::Nrrd || kind == Kind::Raw; // which tells it
+    if (!named && arrays == 1 && !file.array.empty() && file.array != io::ScanHeader().array)
+    {
+      self.Messages.push_back("the name of its array, " + file.array + ", is left out");
+    }
     this->UpdateProgress(1);
     return;
   }

@@ -128,6 +128,12 @@ void vtkBrumeOpenVDBWriter::Internals::Add(io::VdbWriter& file,
       : volume->GetGridClass() == vtkBrumeSparseVolume::GridClassFogVolume ? io::VdbClass::FogVolume
                                                                            : io::VdbClass::Unknown;
   }
+  if (d.kind == io::VdbClass::LevelSet && !(voxels.background() > 0.0))
+  {
+    io::fail(self.FileName,
+      "its background is no width of a band",
+      self.GridClass == GridClassLevelSet ? "leave --grid-class out" : "give it another grid class");
+  }
   const double* m = volume->GetIndexToWorld()->GetData();
   std::copy(m, m + 16, d.world_from_index.begin());
   file.add(voxels, d, progress);
@@ -275,6 +281,13 @@ void vtkBrumeOpenVDBWriter::WriteData()
         vtkDataArray* array = points->GetArray(a); // null for words
         if (!array || array->GetNumberOfTuples() != image->GetNumberOfPoints())
         {
+          continue;
+        }
+        if (array->GetDataType() == VTK_BIT)
+        {
+          self.Tell(std::string("its array ") +
+                    (array->GetName() ? array->GetName() : "(no name)") +
+                    " of single bits is left out");
           continue;
         }
         if (array->GetNumberOfComponents() > 1)

@@ -337,12 +337,12 @@ VtkVolume read_guarded(const std::string& path, std::uint64_t limit, const Progr
 {
   const double length = static_cast<double>(file_length(path, path));
   const int file = memfd_create("brume", MFD_CLOEXEC);
-  void* page = mmap(nullptr, sizeof(double), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  if (file < 0 || page == MAP_FAILED)
+  if (file < 0)
   {
     throw std::bad_alloc();
   }
-  double* const done = static_cast<double*>(page);
+  const SharedMemory page(sizeof(double));
+  double* const done = static_cast<double*>(page.data());
   enum Status
   {
     Whole,
@@ -375,7 +375,6 @@ VtkVolume read_guarded(const std::string& path, std::uint64_t limit, const Progr
   // A second and as long as a slow disk and a text of numbers take.
   const GuardResult result = run_guarded(work, 1 + length / 5e6,
     1.25 * static_cast<double>(memory_limit(limit)) + (64 << 20), progress, done);
-  munmap(page, sizeof(double));
   VtkVolume volume;
   std::string words;
   bool no_memory = result.status == NoMemory;

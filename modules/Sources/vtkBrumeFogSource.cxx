@@ -7,6 +7,7 @@
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMatrix3x3.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -38,6 +39,11 @@ std::shared_ptr<const brume::HeightMap> height_map_from(vtkImageData* image)
                                 std::to_string(dimensions[0]) + " x " +
                                 std::to_string(dimensions[1]) + " x " +
                                 std::to_string(dimensions[2]));
+  }
+  if (!image->GetDirectionMatrix()->IsIdentity())
+  {
+    throw std::invalid_argument("the height map has a direction other than the identity: resample "
+                                "it along x and y, or set its direction matrix to the identity");
   }
   auto map = std::make_shared<brume::HeightMap>();
   const double* bounds = image->GetBounds(); // of the extent, which may begin anywhere

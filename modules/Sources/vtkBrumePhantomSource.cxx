@@ -14,6 +14,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 
+#include <cmath>
 #include <cstdint>
 #include <exception>
 #include <stdexcept>
@@ -109,6 +110,10 @@ int vtkBrumePhantomSource::RequestData(vtkInformation*,
   const int* extent = info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT());
   try
   {
+    if (!std::isfinite(this->EdgeWidth))
+    {
+      throw std::invalid_argument("EdgeWidth must be finite");
+    }
     const brume::Lattice grid = brume::grid_over(this->GetBox(), this->Size);
     const auto seed = static_cast<std::uint32_t>(this->Seed);
     if (this->IsScan() && (!this->Scan || this->ScanTime != this->GetMTime()))

@@ -38,7 +38,14 @@ brume::Lattice vtkBrumeSignedDistanceSource::GetGrid(const brume::Shape& shape) 
 {
   const double* b = this->Bounds;
   brume::Box box{ { b[0], b[2], b[4] }, { b[1], b[3], b[5] } };
-  if (!(b[0] < b[1] && b[2] < b[3] && b[4] < b[5]))
+  const int axes_set = (b[0] < b[1]) + (b[2] < b[3]) + (b[4] < b[5]);
+  if (std::any_of(b, b + 6, [](double x) { return !std::isfinite(x); }) ||
+      (axes_set != 0 && axes_set != 3))
+  {
+    throw std::invalid_argument("Bounds must be finite, each axis' lower end below its upper one; "
+                                "or every lower end above its upper one for the shape's own box");
+  }
+  if (axes_set == 0)
   {
     box = shape.bounds();
     const glm::dvec3 side = box.upper - box.lower;

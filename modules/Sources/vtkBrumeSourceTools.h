@@ -9,6 +9,8 @@
 #include "vtkInformation.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <cmath>
+#include <stdexcept>
 #include <vector>
 
 namespace brume
@@ -28,9 +30,14 @@ inline void describe_grid(const Lattice& grid, int scalar_type, vtkInformation* 
 }
 
 /// Tells the pipeline that any moment can be had, and which ones to ask for: `steps` of them, evenly
-/// from the first to the last; the first alone where the last is not after it.
+/// from the first to the last; the first alone where the last is not after it. Throws
+/// std::invalid_argument where either is not finite.
 inline void describe_time(double first, double last, int steps, vtkInformation* info)
 {
+  if (!std::isfinite(first) || !std::isfinite(last))
+  {
+    throw std::invalid_argument("StartTime and EndTime must be finite");
+  }
   std::vector<double> times(1, first);
   for (int n = 1; n < steps && last > first; ++n)
   {

@@ -63,6 +63,8 @@ b.txt
 b.nrrd --type float16
 b.nrrd --half
 b.vdb --type int16
+b.nrrd --level-set fog
+b.vdb --grid-class level-set --background 1
 END
 run convert "$data/blob.vdb" b.vdb --background 1
 expect_failure 2

@@ -88,6 +88,12 @@ expect_output 'distance \(float, level set\)$'
 expect_output 'becomes a density'
 run generate shape --shape '(sphere' --output b.vdb
 expect_failure 1
+run generate cumulus --size 32 --output b.vdb --grid-class level-set
+expect_failure 1
+expect_error 'no width of a band: leave --grid-class out'
+run generate shape --shape-file /dev/zero --output b.vdb
+expect_failure 1
+expect_error 'longer than 1 MiB'
 run generate particles --size 16 --output p.nrrd --quiet
 expect_success
 run info p.nrrd
@@ -116,6 +122,10 @@ cumulus --output a.nrrd --time 0,1,2
 cumulus --output a.nrrd --octaves 9
 cumulus --output a.nrrd --half
 cumulus --output a.vdb --compress
+cumulus --output a.vdb --size 16 --background 0.5
+cumulus --output a.vdb --size 16 --background-tolerance 0.5
+smoke --output a.vdb --size 12 --background 1 --grid-class level-set
+shape --output a.vdb --size 12 --distance --background 1
 head-ct --output a.nrrd --time 1
 smoke --output a.nrrd --air-temperature 2000
 END

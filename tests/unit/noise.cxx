@@ -273,6 +273,9 @@ TEST(NoiseField, RefusesOptionsThatMakeNone)
   options.octaves.count = 0;
   EXPECT_THROW(brume::NoiseField{ options }, std::invalid_argument);
   options = {};
+  options.octaves.gain = 1e7;
+  EXPECT_THROW(brume::NoiseField{ options }, std::invalid_argument);
+  options = {};
   options.kind = brume::NoiseKind::Simplex;
   options.period.y = 4;
   EXPECT_THROW(brume::NoiseField{ options }, std::invalid_argument);
@@ -341,6 +344,11 @@ TEST(Noise, StrangePlacesGiveZero)
   EXPECT_EQ(brume::perlin_noise({ nan, 0, 0 }, 1), 0.0f);
   EXPECT_EQ(brume::worley_noise({ 0, far, 0 }, 1), 0.0f);
   EXPECT_EQ(brume::fbm({ 0, 0, -std::numeric_limits<double>::infinity() }, 1), 0.0f);
+  EXPECT_EQ(brume::perlin_worley_noise({ nan, 0, 0 }, 1), 0.0f);
+  EXPECT_EQ(brume::perlin_worley_noise({ 0, far, 0 }, 1), 0.0f);
+  brume::NoiseOctaves none;
+  none.count = 0;
+  EXPECT_EQ(brume::perlin_worley_noise({ 0.3, 0.2, 0.1 }, 1, none), 0.0f);
 }
 
 TEST(Noise, WarpMovesByNoMoreThanItsAmplitude)

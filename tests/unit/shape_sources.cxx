@@ -199,6 +199,11 @@ TEST(SignedDistanceSource, TellsWhatIsWrong)
   source->SetBounds(-2.0, 2.0, -2.0, 2.0, -1.0, 1.0);
   EXPECT_EQ(error_of(source), "");
   EXPECT_EQ(source->GetOutput()->GetNumberOfPoints(), 8 * 8 * 4);
+  source->SetBounds(-2.0, 2.0, 2.0, -2.0, -1.0, 1.0);
+  EXPECT_NE(error_of(source).find("Bounds must be finite"), std::string::npos);
+  source->SetBounds(-2.0, endless, -2.0, 2.0, -1.0, 1.0);
+  EXPECT_NE(error_of(source).find("Bounds must be finite"), std::string::npos);
+  source->SetBounds(-2.0, 2.0, -2.0, 2.0, -1.0, 1.0);
   source->SetSize(64);
   expect_abort_and_recovery(source);
   std::ostringstream text;
@@ -283,6 +288,28 @@ TEST(PhantomFields, KnowTheirOpticalDepth)
   EXPECT_TRUE(std::isnan(source->GetOpticalDepth(o, d, 0.0, 1.0)));
   EXPECT_NE(error_of(source).find("the normal of a slab"), std::string::npos);
   EXPECT_EQ(source->GetOutput()->GetNumberOfPoints(), 0);
+}
+
+TEST(PhantomFields, RefuseWhatIsNoNumber)
+{
+  vtkNew<vtkBrumePhantomSource> source;
+  source->SetKind(vtkBrumePhantomSource::KindBall);
+  source->SetSize(8);
+  const double nowhere[3] = { std::nan(""), 0.0, 0.0 };
+  const double along[3] = { 1.0, 0.0, 0.0 };
+  EXPECT_TRUE(std::isnan(source->GetOpticalDepth(nowhere, along, -1.0, 1.0)));
+  const double endless_place[3] = { 0.0, endless, 0.0 };
+  EXPECT_TRUE(std::isnan(source->GetOpticalDepth(endless_place, along, -1.0, 1.0)));
+  source->SetEdgeWidth(std::nan(""));
+  EXPECT_NE(error_of(source).find("EdgeWidth must be finite"), std::string::npos);
+}
+
+TEST(ParticleSource, RefusesTimesWithoutAnEnd)
+{
+  vtkNew<vtkBrumeParticleSource> source;
+  source->SetSize(8);
+  source->SetEndTime(endless);
+  EXPECT_NE(error_of(source).find("must be finite"), std::string::npos);
 }
 
 TEST(PhantomFields, PiecesEqualTheWhole)

@@ -501,6 +501,18 @@ TEST(FogSource, TakesAHeightMapAndHandsItOut)
   source->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, counter);
   source->Update();
   EXPECT_GT(errors, 0);
+
+  // Nor is one that is turned.
+  slope->SetExtent(3, 43, -5, 5, 7, 7);
+  slope->GetPointData()->Initialize();
+  slope->GetPointData()->SetScalars(heights);
+  errors = 0;
+  source->Update();
+  EXPECT_EQ(errors, 0);
+  slope->SetDirectionMatrix(0, -1, 0, 1, 0, 0, 0, 0, 1);
+  slope->Modified();
+  source->Update();
+  EXPECT_GT(errors, 0);
 }
 
 TEST(FogSource, CanBeAbortedAndHoldsItsSettings)

@@ -159,6 +159,35 @@ TEST(DicomReader, WholeValuesOfTwelveBitsStayShorts)
   EXPECT_EQ(opened.image()->GetScalarType(), VTK_SHORT);
 }
 
+TEST(DicomReader, UnsignedNumbersKeepTheBitsThatCount)
+{
+  const std::string here = scan_files::folder();
+  const Series s;
+  const auto names = dicom_files::write(s, here + "a");
+  for (const std::string& name : names)
+  {
+    std::string bytes = scan_files::load(name);
+    bytes[bytes.find(std::string("\x28\x00\x01\x01US\x02\x00", 8)) + 8] = 12;
+    const std::size_t sign = bytes.find(std::string("\x28\x00\x03\x01US\x02\x00", 8));
+    ASSERT_NE(sign, std::string::npos);
+    bytes[sign + 8] = 0;
+    bytes[bytes.size() - 1] = static_cast<char>(bytes[bytes.size() - 1] ^ 0xd0);
+    scan_files::save(name, bytes);
+  }
+  const Opened opened(here + "a");
+  expect_series(opened, s);
+  EXPECT_EQ(opened.image()->GetScalarType(), VTK_SHORT);
+
+  // A picture of other bits is not of the same volume.
+  std::string bytes = scan_files::load(names[6]);
+  bytes[bytes.find(std::string("\x28\x00\x01\x01US\x02\x00", 8)) + 8] = 10;
+  scan_files::save(names[6], bytes);
+  const Opened mixed(here + "a");
+  EXPECT_EQ(mixed.image()->GetDimensions()[2], 6);
+  EXPECT_NE(mixed.messages().find("1 of the series' 7 pictures"), std::string::npos)
+    << mixed.messages();
+}
+
 TEST(DicomReader, MissingAndDoubledSlices)
 {
   const std::string here = scan_files::folder();
@@ -250,6 +279,25 @@ TEST(DicomReader, SeveralSeriesAskForAChoice)
   expect_series(Opened(here + "a", none.reader->GetUIDOfSeries(1)), chest);
   EXPECT_NE(Opened(here + "a", "3").error.find("has no series '3'"), std::string::npos);
   EXPECT_NE(Opened(here + "a", "-1").error.find("has no series"), std::string::npos);
+}
+
+TEST(DicomReader, ASeriesWithoutUidIsNotTakenUnasked)
+{
+  const std::string here = scan_files::folder();
+  Series other;
+  other.number = "12";
+  const auto names = dicom_files::write(Series(), here + "a");
+  dicom_files::write(other, here + "a");
+  for (const std::string& name : names)
+  {
+    std::string bytes = scan_files::load(name);
+    const std::size_t at = bytes.find(std::string("\x20\x00\x0e\x00UI", 6));
+    ASSERT_NE(at, std::string::npos);
+    const auto length = static_cast<unsigned char>(bytes[at + 6]);
+    scan_files::save(name, bytes.replace(at + 8, length, std::string(length, '\0')));
+  }
+  const Opened opened(here + "a");
+  EXPECT_NE(opened.error.find("holds 2 different series"), std::string::npos) << opened.error;
 }
 
 TEST(DicomReader, VolumesOverTime)

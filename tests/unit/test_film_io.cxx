@@ -145,14 +145,36 @@ TEST(FilmIo, PngIsTopDownAndByteForByte)
   EXPECT_EQ(pixels[2], 255);
 }
 
+TEST(FilmIo, HdrIsTopDownAndWithinItsQuantisation)
+{
+  const std::string path = folder() + "a.hdr";
+  const std::vector<float> rgb{ 0, 0, 0, 1000, 3, 0.5f, -1, NAN, 0.25f, INFINITY, 0, 1e-30f };
+  write_hdr(rgb, 2, 2, path);
+  const auto input = OIIO::ImageInput::open(path);
+  ASSERT_TRUE(input);
+  std::vector<float> pixels(12);
+  ASSERT_TRUE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::FLOAT, pixels.data()));
+  const std::vector<float> top_down{ 0, 0, 0.25f, 1.6e38f, 0, 0, 0, 0, 0, 1000, 3, 0.5f };
+  for (std::size_t pixel = 0; pixel < 4; ++pixel)
+  {
+    const float* want = &top_down[3 * pixel];
+    const float largest = *std::max_element(want, want + 3);
+    for (std::size_t c = 0; c < 3; ++c)
+    {
+      EXPECT_NEAR(pixels[3 * pixel + c], want[c], largest / 128) << pixel << ", " << c;
+    }
+  }
+  EXPECT_NE(error_of([&] { write_hdr({ 1, 2, 3 }, 2, 2, path); }), "");
+}
+
 TEST(FilmIo, ErrorsNameThePlaceAndTheRemedy)
 {
   const std::string here = folder();
   const Film film(2, 2);
   const auto exr = [&](const std::string& path)
   { return error_of([&] { write_exr(film, path); }); };
-  EXPECT_NE(exr(here + "a.jpg").find(".png or .exr"), std::string::npos);
-  EXPECT_NE(exr(here + "a").find(".png or .exr"), std::string::npos);
+  EXPECT_NE(exr(here + "a.jpg").find(".png, .exr or .hdr"), std::string::npos);
+  EXPECT_NE(exr(here + "a").find(".png, .exr or .hdr"), std::string::npos);
   EXPECT_NE(exr(here + "a.png").find("does not end in .exr"), std::string::npos);
   EXPECT_NE(exr(here + "none/a.exr").find("make the folder first"), std::string::npos);
   std::filesystem::create_directory(here + "dir.exr");

@@ -191,6 +191,43 @@ TEST(Series, NumberedFiles)
   EXPECT_NE(std::string(mixed->GetErrorMessage()).find("f12.nii: is not of the size and type"),
     std::string::npos)
     << mixed->GetErrorMessage();
+  mixed->UpdateTimeStep(8);
+  EXPECT_STREQ(mixed->GetErrorMessage(), "");
+  mixed->UpdateTimeStep(12);
+  EXPECT_NE(std::string(mixed->GetErrorMessage()).find("is not of the size"), std::string::npos);
+}
+
+TEST(Series, OneDamagedFileLeavesTheOthers)
+{
+  const std::string here = folder();
+  const std::string bytes = all_voxels();
+  for (int t = 0; t < Steps; ++t)
+  {
+    // Of the second, the header alone; the third ends within its header.
+    const std::string whole =
+      "NRRD0004\ntype: short\nendian: little\nencoding: raw\ndimension: 3\nsizes: 5 4 3\n\n" +
+      bytes.substr(t * 120, 120);
+    char name[16];
+    std::snprintf(name, sizeof(name), "s_%03d.nrrd", t);
+    save(here + name, whole.substr(0, t == 1 ? whole.size() - 60 : t == 2 ? 30 : whole.size()));
+  }
+  const auto reader = reader_of(here + "s_%03d.nrrd");
+  ASSERT_EQ(times_of(reader).size(), 3u);
+  for (int t : { 0, 1, 0, 2, 2, 0, 2, 1, 0 })
+  {
+    reader->UpdateTimeStep(t);
+    const std::string error = reader->GetErrorMessage();
+    vtkImageData* image = reader->GetOutput();
+    if (t > 0)
+    {
+      EXPECT_NE(error.find("s_00" + std::to_string(t) + ".nrrd"), std::string::npos) << error;
+      EXPECT_EQ(image->GetNumberOfPoints(), 0);
+      continue;
+    }
+    ASSERT_EQ(error, "");
+    ASSERT_EQ(image->GetNumberOfPoints(), Nx * Ny * Nz);
+    EXPECT_EQ(image->GetPointData()->GetScalars()->GetComponent(7, 0), numbers()[7]);
+  }
 }
 
 TEST(Series, CutShort)

@@ -9,6 +9,7 @@
 
 #include "Transport/sparse_voxels.h"
 
+#include "vtkBitArray.h"
 #include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
 #include "vtkDataArray.h"
@@ -301,7 +302,7 @@ TEST(ImageWriter, TellsWhatAFormatCannotHold)
   auto image = image_of(VTK_FLOAT, Frames[1]);
   EXPECT_EQ(told("a.nrrd", image, "mm", true), "");
   EXPECT_EQ(told("a.vti", image, "mm", true), "");
-  EXPECT_EQ(told("a.mha", image, "mm", true), "");
+  EXPECT_EQ(told("a.mha", image, "mm", true), "the name of its array, density, is left out\n");
   EXPECT_NE(told("b.mha", image, "m", false).find("the unit of length, m,"), std::string::npos);
   EXPECT_NE(told("b.nii", image, "m", false).find("not is in a comment"), std::string::npos);
   EXPECT_EQ(told("b.nii", image, "m", false).find("the unit of length"), std::string::npos);
@@ -330,6 +331,39 @@ void expect_error(Writer* writer, const char* path, const std::string& words)
   EXPECT_EQ(ear.errors, 1);
   EXPECT_NE(std::string(writer->GetErrorMessage()).find(words), std::string::npos)
     << writer->GetErrorMessage();
+}
+
+TEST(ImageWriter, APatientInMetresComesBackInMillimetres)
+{
+  const std::string path = folder("metres") + "/a.mha";
+  const auto image = image_of(VTK_FLOAT, Frames[1]);
+  vtkNew<vtkBrumeImageWriter> writer;
+  writer->SetInputData(image);
+  writer->SetFileName(path.c_str());
+  writer->SetLengthUnit("m");
+  writer->SetPatientAxes(true);
+  ASSERT_EQ(writer->Write(), 1);
+  vtkNew<vtkBrumeImageReader> reader;
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  EXPECT_STREQ(reader->GetLengthUnit(), "mm");
+  for (int a = 0; a < 3; ++a)
+  {
+    EXPECT_NEAR(reader->GetOutput()->GetSpacing()[a], 1000.0 * image->GetSpacing()[a], 1e-9);
+  }
+}
+
+TEST(ImageWriter, TheNameOfAnArrayStaysInNrrd)
+{
+  const std::string path = folder("name") + "/a.nrrd";
+  vtkNew<vtkBrumeImageWriter> writer;
+  writer->SetInputData(image_of(VTK_FLOAT, Frames[0]));
+  writer->SetFileName(path.c_str());
+  ASSERT_EQ(writer->Write(), 1);
+  vtkNew<vtkBrumeImageReader> reader;
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  EXPECT_STREQ(reader->GetOutput()->GetPointData()->GetScalars()->GetName(), "density");
 }
 
 TEST(VolumeWriters, ErrorsAreToldAndLeaveNothing)
@@ -495,6 +529,29 @@ TEST(OpenVDBWriter, LeavesOutTheBackgroundAndMakesTiles)
   EXPECT_EQ(
     volume->GetGridClass(), vtkBrumeSparseVolume::GridClassUnknown); // negative values were there
   EXPECT_EQ(volume->GetValueRange()[0], 0.0);
+}
+
+TEST(OpenVDBWriter, LeavesOutSingleBitsAndBandsWithoutWidth)
+{
+  const std::string path = folder("bits") + "/a.vdb";
+  const auto image = image_of(VTK_FLOAT, Frames[0]);
+  vtkNew<vtkBitArray> bits;
+  bits->SetName("mask");
+  bits->SetNumberOfTuples(image->GetNumberOfPoints());
+  bits->FillComponent(0, 1.0);
+  image->GetPointData()->AddArray(bits);
+  vtkNew<vtkBrumeOpenVDBWriter> writer;
+  writer->SetInputData(image);
+  writer->SetFileName(path.c_str());
+  ASSERT_EQ(writer->Write(), 1) << writer->GetErrorMessage();
+  ASSERT_EQ(writer->GetNumberOfMessages(), 1);
+  EXPECT_STREQ(writer->GetMessage(0), "its array mask of single bits is left out");
+
+  const auto sparse = read_vdb(path, "density");
+  ASSERT_EQ(sparse->GetVoxels()->background(), 0.0);
+  writer->SetInputDataObject(sparse);
+  writer->SetGridClass(vtkBrumeOpenVDBWriter::GridClassLevelSet);
+  expect_error(writer.Get(), path.c_str(), "its background is no width of a band: leave --grid-class out");
 }
 
 TEST(OpenVDBWriter, ASparseVolumeStaysWhatItIs)
