@@ -10,8 +10,6 @@ namespace
 {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr double most_anisotropy = 0.9999;
-constexpr double least_anisotropy = 1e-6;
 
 PhaseTerm henyey_greenstein(double g, double weight)
 {

@@ -9,6 +9,10 @@
 namespace brume
 {
 
+/// Anisotropies beyond are cut to this; nearer 0 than that, they count as 0.
+constexpr double most_anisotropy = 0.9999;
+constexpr double least_anisotropy = 1e-6;
+
 /// scale · (least + slope · (1 ∓ cos θ))^(−3/2), or ^(−2) for Schlick's form.
 struct PhaseTerm
 {

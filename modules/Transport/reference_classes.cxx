@@ -48,6 +48,7 @@ ReferenceClasses::ReferenceClasses(const Classification& classification)
     this->Before[i + 1] = this->Before[i] + seen[i];
   }
   this->add_up_variation();
+  this->find_largest();
 }
 
 void ReferenceClasses::add_up_variation()
@@ -89,6 +90,50 @@ void ReferenceClasses::add_up_variation()
     }
     this->Variation[i] = this->Variation[i - 1] + step;
   }
+}
+
+namespace
+{
+constexpr std::size_t run_length = 64;
+}
+
+void ReferenceClasses::find_largest()
+{
+  const Classification& c = this->TheFunctions;
+  this->Columnwise = this->Extinction;
+  if (this->Rows > 1)
+  {
+    this->Columnwise.assign(this->Columns, 0.0);
+    for (std::size_t i = 3; i < c.value_gradient.size(); i += 4)
+    {
+      double& largest = this->Columnwise[i / 4 % this->Columns];
+      largest = std::max(largest, extinction_from_opacity(c.value_gradient[i], c.unit_distance));
+    }
+  }
+  this->Runs.assign(this->Columnwise.size() / run_length + 1, 0.0);
+  for (std::size_t i = 0; i < this->Columnwise.size(); ++i)
+  {
+    double& largest = this->Runs[i / run_length];
+    largest = std::max(largest, this->Columnwise[i]);
+  }
+}
+
+double ReferenceClasses::largest_extinction(double lower, double upper) const
+{
+  const Classification& c = this->TheFunctions;
+  const double last = this->Columns - 1;
+  const auto position = [&](double value)
+  { return std::clamp((value - c.lower) / (c.upper - c.lower) * last, 0.0, last); };
+  std::size_t at = static_cast<std::size_t>(std::floor(position(lower)));
+  const std::size_t end = static_cast<std::size_t>(std::ceil(position(upper))) + 1;
+  double largest = 0.0;
+  while (at < end)
+  {
+    const bool run = at % run_length == 0 && at + run_length <= end;
+    largest = std::max(largest, run ? this->Runs[at / run_length] : this->Columnwise[at]);
+    at += run ? run_length : 1;
+  }
+  return largest;
 }
 
 double ReferenceClasses::variation(double from, double to) const

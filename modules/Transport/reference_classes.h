@@ -35,6 +35,9 @@ public:
   /// The gradient opacity, in [0, 1]; 1 where there is none.
   double gradient_factor(double magnitude) const;
 
+  /// An upper bound of extinction() over all values of a range and all magnitudes.
+  double largest_extinction(double lower, double upper) const;
+
   /// Whether any value of the range has an opacity.
   bool can_show(float lower, float upper) const;
   /// A value of no opacity, where there is one.
@@ -48,12 +51,15 @@ private:
   /// Four channels, bilinear.
   double node(double value, double magnitude, int channel) const;
   void add_up_variation();
+  void find_largest();
 
   const Classification& TheFunctions;
   int Columns; ///< nodes along the values
   int Rows;    ///< nodes along the gradient; 1 for functions of the value alone
   double Empty = 0.0;
   std::vector<double> Extinction; ///< at the nodes of the opacity; none for two dimensions
+  std::vector<double> Columnwise; ///< the largest extinction of each column
+  std::vector<double> Runs;       ///< of each run_length columns the largest
   std::vector<double> Variation;  ///< summed from the first node on
   std::vector<int> Before;        ///< how many of the nodes before each can be seen
 };

@@ -77,25 +77,6 @@ bool needs_lighting(const Scene& scene)
              { return volume.medium.lit || channels(volume) != glm::dvec3(1.0); }));
 }
 
-struct ReferenceLighting::Lamp
-{
-  const Light* light;
-  /// The light in the origin, so that single precision does not blur its place.
-  ShadeLight at_origin;
-
-  /// The place as at_origin sees it.
-  glm::dvec3 offset(const glm::dvec3& world) const
-  {
-    return this->light->positional ? world - this->light->position : world;
-  }
-  glm::dvec3 travel(const glm::dvec3& offset) const
-  {
-    const glm::dvec3 along = this->light->positional ? offset : this->light->direction;
-    const double length = glm::length(along);
-    return length > 0.0 ? along / length : glm::dvec3(0.0);
-  }
-};
-
 struct ReferenceLighting::Arriving
 {
   struct Beam
@@ -140,12 +121,9 @@ ReferenceLighting::ReferenceLighting(const Scene& scene, const std::vector<Refer
   , Media(media)
   , Rays(scene)
 {
-  const ShadeModel plain = prepare_shading(scene, scene.volumes.front());
-  for (std::size_t l = 0; l < scene.lights.size(); ++l)
+  for (const Light& light : scene.lights)
   {
-    Lamp lamp{ &scene.lights[l], plain.lights[l] };
-    std::fill(lamp.at_origin.position, lamp.at_origin.position + 3, 0.0f);
-    this->Lamps.push_back(lamp);
+    this->Lamps.emplace_back(light);
   }
   for (const ReferenceMedium& matter : media)
   {
@@ -321,9 +299,7 @@ ReferenceLighting::Arriving ReferenceLighting::arriving(const PixelRay& ray,
     Arriving::Beam beam{};
     beam.offset = lamp.offset(result.world);
     const glm::dvec3 travel = lamp.travel(beam.offset);
-    const double strength =
-      scalar::incidence<double>(lamp.at_origin, to_scalar(beam.offset)).strength;
-    beam.irradiance = pi * strength * lamp.light->diffuse;
+    beam.irradiance = lamp.irradiance(beam.offset);
     if (this->Fog)
     {
       beam.irradiance *= this->Fog->light_transmittance(result.beams.size(), result.world);
@@ -332,10 +308,10 @@ ReferenceLighting::Arriving ReferenceLighting::arriving(const PixelRay& ray,
     const glm::dvec3 more = travel + result.toward_eye;
     beam.one_minus_cosine = 0.5 * glm::dot(less, less);
     beam.one_plus_cosine = 0.5 * glm::dot(more, more);
-    if (strength > 0.0)
+    if (shines(beam.irradiance))
     {
       beam.depth = this->optical_depth(
-        result.world, lamp.light->positional ? -beam.offset : -travel * outside, pieces, samples);
+        result.world, lamp.is_positional() ? -beam.offset : -travel * outside, pieces, samples);
     }
     result.beams.push_back(beam);
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "Transport/fog.h"
+#include "Transport/lamp.h"
 #include "Transport/phase.h"
 #include "Transport/reference_grid.h"
 #include "Transport/reference_medium.h"
@@ -59,7 +60,6 @@ public:
     std::uint64_t& samples) const;
 
 private:
-  struct Lamp;     ///< a light
   struct Arriving; ///< light that arrives at a place
   struct Body;     ///< a volume
 

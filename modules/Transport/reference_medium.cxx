@@ -185,6 +185,20 @@ double ReferenceMedium::extinction(const glm::dvec3& place) const
   return found.extinction;
 }
 
+double ReferenceMedium::largest_extinction(double lower, double upper) const
+{
+  if (this->Classes.empty())
+  {
+    return this->TheVolume.density.extinction * std::max(upper, 0.0);
+  }
+  double largest = 0.0;
+  for (const ReferenceClasses& c : this->Classes)
+  {
+    largest = std::max(largest, c.largest_extinction(lower, upper));
+  }
+  return largest;
+}
+
 FoundMatter ReferenceMedium::matter(const glm::dvec3& place) const
 {
   FoundMatter found;

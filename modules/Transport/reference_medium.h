@@ -53,6 +53,11 @@ public:
   /// Whether anything can be seen in the brick that holds the place. Only a way to save time: what
   /// cannot be seen has no extinction.
   bool visible(const glm::dvec3& place) const;
+  const BrickRanges& ranges() const { return *this->Ranges; }
+  /// What stands in for voxels that are not finite.
+  double empty_value() const { return this->EmptyValue; }
+  /// An upper bound of matter().extinction over all places where the value is in a range.
+  double largest_extinction(double lower, double upper) const;
   /// Bounds of the values in the brick that holds the place.
   void range(const glm::dvec3& place, double& lower, double& upper) const;
 

@@ -225,15 +225,7 @@ void RayFrame::find_parts(VolumeRay& ray) const
   for (std::size_t i = 1; i < cuts.size(); ++i)
   {
     const glm::dvec3 middle = ray.place(0.5 * (cuts[i - 1] + cuts[i]));
-    int region = 0;
-    for (int axis = 2; axis >= 0; --axis)
-    {
-      const int side = middle[axis] < cropping.lower[axis]   ? 0
-                       : middle[axis] > cropping.upper[axis] ? 2
-                                                             : 1;
-      region = 3 * region + side;
-    }
-    if ((cropping.regions >> region & 1u) == 0 || !(cuts[i - 1] < cuts[i]))
+    if (!cropping.draws(middle) || !(cuts[i - 1] < cuts[i]))
     {
       continue;
     }

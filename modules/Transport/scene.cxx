@@ -133,4 +133,15 @@ void Scene::validate() const
               std::isfinite(glm::dot(this->slice, this->slice))),
     "the plane of a slice needs a normal and finite numbers");
 }
+bool Cropping::draws(const glm::dvec3& place) const
+{
+  int region = 0;
+  for (int axis = 2; axis >= 0; --axis)
+  {
+    const int side = place[axis] < this->lower[axis] ? 0 : place[axis] > this->upper[axis] ? 2 : 1;
+    region = 3 * region + side;
+  }
+  return (this->regions >> region & 1u) != 0;
+}
+
 }

@@ -88,6 +88,9 @@ struct Cropping
   /// others. A ray that runs in a plane is between. The same 27 bits as vtkVolumeMapper's; 0x2000
   /// is the box in the middle.
   std::uint32_t regions = 0x2000;
+
+  /// Whether the region of a place of index space is drawn, if cropping is enabled.
+  bool draws(const glm::dvec3& place) const;
 };
 
 /// Surface-like shading of classified values by the direction of their gradient, after Blinn and

@@ -1,0 +1,338 @@
+#include "Transport/path_matter.h"
+
+#include "Transport/black_body.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace brume
+{
+
+namespace
+{
+
+/// Tentative collisions on the way through a box, at the least, where matter glows: glow is only
+/// seen at collisions.
+constexpr double collisions_of_glow = 16.0;
+
+/// A density of voxels that are all at hand: one of the eight around a place stands for them.
+template <class T>
+class VoxelMatter final : public PathMatter
+{
+public:
+  VoxelMatter(const Scene& scene, const std::vector<ReferenceMedium>& media, int number)
+    : PathMatter(scene, media, { number })
+    , TheGrid(scene.volumes[number].grid)
+    , Voxels(static_cast<const T*>(this->TheGrid.voxels) + this->TheGrid.component)
+    , Scale(scene.volumes[number].density.extinction * scene.volumes[number].weight)
+  {
+  }
+
+  double density(const glm::dvec3& place, RandomStream& random) const override
+  {
+    if (this->is_cut() && !this->is_drawn(place))
+    {
+      return 0.0;
+    }
+    double u = random.uniform();
+    std::size_t index = 0;
+    for (int axis = 2; axis >= 0; --axis)
+    {
+      const int count = this->TheGrid.dims[axis];
+      const double at = std::clamp(place[axis], 0.0, double(count - 1));
+      int voxel = static_cast<int>(at);
+      const double fraction = at - voxel;
+      if (u < fraction)
+      {
+        ++voxel;
+        u /= fraction;
+      }
+      else
+      {
+        u = (u - fraction) / (1.0 - fraction);
+      }
+      index = index * count + voxel;
+    }
+    const double value = static_cast<double>(this->Voxels[index * this->TheGrid.components]);
+    return std::isfinite(value) ? this->Scale * value : 0.0;
+  }
+
+private:
+  const Grid TheGrid;
+  const T* Voxels;
+  double Scale;
+};
+
+/// Whether a volume can be a VoxelMatter: a trilinear density that is nowhere negative, where
+/// interpolating and taking what is below 0 for 0 are one.
+bool has_plain_voxels(const Volume& volume, const ReferenceMedium& medium)
+{
+  return volume.meaning == ValueMeaning::Density && volume.grid.voxels && volume.grid.linear &&
+         !volume.mask.labels && medium.ranges().lower >= 0.0f;
+}
+
+std::unique_ptr<PathMatter> make_matter(
+  const Scene& scene, const std::vector<ReferenceMedium>& media, int number)
+{
+  const Volume& volume = scene.volumes[number];
+  if (has_plain_voxels(volume, media[number]))
+  {
+    switch (volume.grid.type)
+    {
+      case VoxelType::UInt8:
+        return std::make_unique<VoxelMatter<std::uint8_t>>(scene, media, number);
+      case VoxelType::Int8:
+        return std::make_unique<VoxelMatter<std::int8_t>>(scene, media, number);
+      case VoxelType::UInt16:
+        return std::make_unique<VoxelMatter<std::uint16_t>>(scene, media, number);
+      case VoxelType::Int16:
+        return std::make_unique<VoxelMatter<std::int16_t>>(scene, media, number);
+      case VoxelType::Float32:
+        return std::make_unique<VoxelMatter<float>>(scene, media, number);
+      case VoxelType::Float16: // dense grids have none
+        break;
+    }
+  }
+  return std::make_unique<PathMatter>(scene, media, std::vector<int>{ number });
+}
+
+}
+
+PathMatter::PathMatter(const Scene& scene,
+  const std::vector<ReferenceMedium>& media,
+  const std::vector<int>& numbers)
+  : TheScene(scene)
+{
+  for (int number : numbers)
+  {
+    const Volume& volume = scene.volumes[number];
+    const Medium& medium = volume.medium;
+    this->Media.push_back(&media[number]);
+    this->Temperatures.emplace_back();
+    if (medium.lit && medium.black_body > 0.0 && medium.temperature.voxels)
+    {
+      black_body_radiance(0.0, medium.black_body_reference); // throws for one that is not usable
+      this->Temperatures.back() = ReferenceGrid::make(medium.temperature, 0.0);
+    }
+    const bool glows = this->Temperatures.back() || glm::any(glm::greaterThan(medium.emission, glm::dvec3(0.0)));
+    const bool scatters = glm::any(glm::greaterThan(medium.albedo, glm::dvec3(0.0)));
+    this->Emits |= medium.lit ? glows : volume.meaning == ValueMeaning::Classified;
+    this->Scatters |= medium.lit && scatters;
+  }
+  const Volume& first = this->volume();
+  this->Phase = PhaseSampler(first.medium.lobes);
+  if (first.meaning == ValueMeaning::Density)
+  {
+    this->Channels = first.density.channels;
+  }
+  const glm::dmat4 world_from_index = first.world_from_data * first.data_from_index;
+  this->IndexFromWorld = glm::inverse(world_from_index);
+  this->DataFromIndex = glm::dmat3(first.data_from_index);
+  for (const glm::dvec4& plane : first.clipping_planes)
+  {
+    this->Planes.push_back(glm::transpose(world_from_index) * plane);
+  }
+  this->Cut = first.cropping.enabled || !this->Planes.empty();
+  this->find_bricks();
+}
+
+void PathMatter::find_bricks()
+{
+  const BrickRanges& ranges = this->medium().ranges();
+  const Grid& grid = this->volume().grid;
+  PathBricks& bricks = this->Bricks;
+  bricks.shift = ranges.shift;
+  std::copy(ranges.dims, ranges.dims + 3, bricks.dims);
+  bricks.rate.assign(ranges.size(), 0.0);
+  bricks.least.assign(ranges.size(), 0.0);
+  glm::dvec3 box;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    box[axis] = grid.upper(axis) - grid.lower(axis);
+  }
+  const double across = glm::length(this->DataFromIndex * box);
+  const double glow = this->Emits && this->volume().medium.lit ? collisions_of_glow / across : 0.0;
+  const double channel =
+    std::max({ this->Channels.x, this->Channels.y, this->Channels.z });
+  for (const ReferenceMedium* medium : this->Media)
+  {
+    const BrickRanges& own = medium->ranges();
+    const bool density = medium->is_density();
+    for (std::size_t i = 0; i < own.size(); ++i)
+    {
+      double lower = own.minimum[i];
+      double upper = own.maximum[i];
+      if (!own.reaches_non_finite.empty() && own.reaches_non_finite[i])
+      {
+        lower = std::min(lower, medium->empty_value());
+        upper = std::max(upper, medium->empty_value());
+      }
+      if (!(lower <= upper))
+      {
+        continue;
+      }
+      const double weight = medium->volume().weight;
+      double rate = weight * channel * medium->largest_extinction(lower, upper);
+      if (density ? upper > 0.0 : rate > 0.0)
+      {
+        rate = std::max(rate, glow);
+      }
+      bricks.rate[i] += rate;
+      if (density && !this->Cut && !medium->volume().mask.labels)
+      {
+        bricks.least[i] += weight * medium->volume().density.extinction * std::max(lower, 0.0);
+      }
+    }
+  }
+  // Distances are a matter of what can be seen; the rates say what.
+  BrickRanges seen = ranges;
+  std::transform(bricks.rate.begin(), bricks.rate.end(), seen.maximum.begin(),
+    [](double rate) { return rate > 0.0 ? 1.0f : 0.0f; });
+  std::fill(seen.minimum.begin(), seen.minimum.end(), 0.0f);
+  seen.reaches_non_finite.clear();
+  bricks.distance =
+    find_visible_bricks(seen, [](float, float upper) { return upper > 0.0f; }, 0.0f).distance;
+}
+
+MatterRay PathMatter::ray(
+  const glm::dvec3& world_begin, const glm::dvec3& world_direction) const
+{
+  MatterRay ray;
+  ray.begin = glm::dvec3(this->IndexFromWorld * glm::dvec4(world_begin, 1.0));
+  ray.along = glm::dmat3(this->IndexFromWorld) * world_direction;
+  ray.scale = glm::length(this->DataFromIndex * ray.along);
+  ray.to = std::numeric_limits<double>::infinity();
+  const Grid& grid = this->volume().grid;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double lower = grid.lower(axis) - ray.begin[axis];
+    const double upper = grid.upper(axis) - ray.begin[axis];
+    if (ray.along[axis] == 0.0)
+    {
+      ray.to = lower <= 0.0 && upper >= 0.0 ? ray.to : -1.0;
+      continue;
+    }
+    const double a = lower / ray.along[axis];
+    const double b = upper / ray.along[axis];
+    ray.from = std::max(ray.from, std::min(a, b));
+    ray.to = std::min(ray.to, std::max(a, b));
+  }
+  return ray;
+}
+
+bool PathMatter::is_drawn(const glm::dvec3& place) const
+{
+  for (const glm::dvec4& plane : this->Planes)
+  {
+    if (glm::dot(plane, glm::dvec4(place, 1.0)) < 0.0)
+    {
+      return false;
+    }
+  }
+  const Cropping& cropping = this->volume().cropping;
+  return !cropping.enabled || cropping.draws(place);
+}
+
+double PathMatter::density(const glm::dvec3& place, RandomStream&) const
+{
+  if (this->Cut && !this->is_drawn(place))
+  {
+    return 0.0;
+  }
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const ReferenceMedium* medium : this->Media)
+  {
+    const double extinction = medium->volume().weight * medium->extinction(place);
+    sum += extinction;
+    squares += extinction * extinction;
+  }
+  return this->Media.size() > 1 && sum > 0.0 ? squares / sum : sum;
+}
+
+glm::dvec3 PathMatter::albedo(const glm::dvec3& place) const
+{
+  const Medium& first = this->volume().medium;
+  if (!this->Scatters)
+  {
+    return glm::dvec3(0.0);
+  }
+  if (this->medium().is_density())
+  {
+    return first.albedo;
+  }
+  glm::dvec3 scattered(0.0);
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const ReferenceMedium* medium : this->Media)
+  {
+    const FoundMatter found = medium->matter(place);
+    const double extinction = medium->volume().weight * found.extinction;
+    scattered += extinction * medium->volume().medium.albedo * found.colour;
+    sum += extinction;
+    squares += extinction * extinction;
+  }
+  const double extinction = this->Media.size() > 1 && sum > 0.0 ? squares / sum : sum;
+  return extinction > 0.0 ? scattered / extinction : glm::dvec3(0.0);
+}
+
+glm::dvec3 PathMatter::emission(const glm::dvec3& place) const
+{
+  glm::dvec3 sum(0.0);
+  if (this->Cut && !this->is_drawn(place))
+  {
+    return sum;
+  }
+  for (std::size_t i = 0; i < this->Media.size(); ++i)
+  {
+    const ReferenceMedium& own = *this->Media[i];
+    const Medium& medium = own.volume().medium;
+    const FoundMatter found = own.matter(place);
+    if (!medium.lit)
+    {
+      sum += own.volume().weight * found.extinction * (own.is_density() ? glm::dvec3(0.0) : found.colour);
+      continue;
+    }
+    glm::dvec3 radiance = medium.emission;
+    if (this->Temperatures[i])
+    {
+      radiance += medium.black_body *
+                  black_body_radiance(
+                    medium.temperature_scale *
+                      this->Temperatures[i]->value(place, medium.temperature.component),
+                    medium.black_body_reference);
+    }
+    sum += own.volume().weight * (own.is_density() ? radiance * std::max(found.value, 0.0)
+                                                   : radiance * found.colour * found.extinction);
+  }
+  return sum;
+}
+
+std::vector<std::unique_ptr<PathMatter>> find_path_matter(
+  const Scene& scene, const std::vector<ReferenceMedium>& media)
+{
+  std::vector<std::unique_ptr<PathMatter>> result;
+  if (scene.mixture == Mixture::Components && scene.volumes.size() > 1)
+  {
+    std::vector<int> all;
+    for (std::size_t v = 0; v < scene.volumes.size(); ++v)
+    {
+      all.push_back(static_cast<int>(v));
+    }
+    result.push_back(std::make_unique<PathMatter>(scene, media, all));
+    return result;
+  }
+  for (std::size_t v = 0; v < scene.volumes.size(); ++v)
+  {
+    result.push_back(make_matter(scene, media, static_cast<int>(v)));
+  }
+  return result;
+}
+
+}

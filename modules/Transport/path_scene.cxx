@@ -1,0 +1,391 @@
+#include "Transport/path_scene.h"
+
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <stdexcept>
+
+namespace brume
+{
+
+namespace
+{
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Below this weight a path goes on with a chance that is as small, and more weight if it does.
+constexpr double least_weight = 0.25;
+
+double largest(const glm::dvec3& v)
+{
+  return std::max({ v.x, v.y, v.z });
+}
+
+double mean(const glm::dvec3& v)
+{
+  return (v.x + v.y + v.z) / 3.0;
+}
+
+}
+
+/// A path so far. Its events were drawn by the extinctions of one channel, the hero, which was drawn
+/// itself; chances[c] is the density of these events had it been channel c, by that of the hero. By
+/// the balance heuristic over the three each estimate counts by `chances` over their mean (B. Miller,
+/// I. Georgiev, W. Jarosz, A null-scattering path integral formulation of light transport, SIGGRAPH
+/// 2019; the hero: A. Wilkie et al., Hero wavelength spectral sampling, EGSR 2014).
+struct PathScene::Path
+{
+  RandomStream& random;
+  PathCounts& counts;
+  int hero = 0;
+  glm::dvec3 chances{ 1.0 };
+  glm::dvec3 kept{ 1.0 }; ///< the albedos on the way, by the chances of having gone on
+
+  glm::dvec3 weight() const { return this->kept * this->chances / mean(this->chances); }
+};
+
+/// Tentative collisions of one matter along a ray: a Poisson process whose rate is constant in each
+/// brick (E. R. Woodcock et al. 1965; bricks: L. Szirmay-Kalos et al. 2011).
+class PathScene::Tracker
+{
+public:
+  Tracker(const PathMatter& matter, const MatterRay& ray, double to)
+    : TheMatter(&matter)
+    , TheRay(ray)
+    , Walk(matter.bricks(), ray.begin, ray.along, ray.from, std::min(ray.to, to))
+  {
+  }
+
+  /// Moves on to the next one; +infinity beyond the last.
+  void next(RandomStream& random)
+  {
+    double depth = -std::log(random.uniform());
+    for (;;)
+    {
+      const double rest = (this->To - this->At) * this->Rate;
+      if (depth < rest)
+      {
+        this->At += depth / this->Rate;
+        return;
+      }
+      depth -= rest;
+      if (!this->Walk.next())
+      {
+        this->At = infinity;
+        return;
+      }
+      this->At = this->Walk.from();
+      this->To = this->Walk.to();
+      this->Rate = this->brick_rate() * this->TheRay.scale;
+    }
+  }
+
+  double at() const { return this->At; }
+  const PathMatter& matter() const { return *this->TheMatter; }
+  glm::dvec3 place() const { return this->TheRay.begin + this->At * this->TheRay.along; }
+  /// Per unit of the data's length, of the brick with the last collision.
+  double brick_rate() const { return this->TheMatter->bricks().rate[this->Walk.brick()]; }
+
+private:
+  const PathMatter* TheMatter;
+  MatterRay TheRay;
+  BrickWalk Walk;
+  double At = 0.0;
+  double To = 0.0;
+  double Rate = 0.0;
+};
+
+struct PathScene::Collision
+{
+  double at = infinity;
+  const PathMatter* matter = nullptr;
+  glm::dvec3 place{ 0.0 }; ///< index space
+  glm::dvec3 emitted{ 0.0 };
+};
+
+PathScene::PathScene(const Scene& scene)
+  : TheScene(scene)
+{
+  scene.validate();
+  if (scene.blend_mode != BlendMode::Composite)
+  {
+    throw std::invalid_argument("paths are traced in composite mode alone");
+  }
+  this->Media.reserve(scene.volumes.size());
+  for (const Volume& volume : scene.volumes)
+  {
+    this->Media.emplace_back(scene, volume);
+  }
+  this->Matter = find_path_matter(scene, this->Media);
+  for (const auto& matter : this->Matter)
+  {
+    const glm::dvec3& k = matter->channels();
+    this->Coloured |= k.x != k.y || k.y != k.z;
+  }
+  double sum = 0.0;
+  for (const Light& light : scene.lights)
+  {
+    const double strength = light.diffuse.x + light.diffuse.y + light.diffuse.z;
+    if (strength > 0.0)
+    {
+      this->Lamps.emplace_back(light);
+      this->LampUpTo.push_back(sum += strength);
+    }
+  }
+  for (double& up_to : this->LampUpTo)
+  {
+    up_to /= sum;
+  }
+}
+
+bool PathScene::can_send() const
+{
+  const Sky& sky = this->TheScene.sky;
+  const bool lit = !this->Lamps.empty() || largest(sky.radiance) > 0.0 || largest(sky.ground) > 0.0;
+  return std::any_of(this->Matter.begin(), this->Matter.end(),
+    [lit](const auto& matter) { return matter->emits() || (lit && matter->scatters()); });
+}
+
+std::size_t PathScene::non_finite_voxels() const
+{
+  std::size_t count = 0;
+  for (std::size_t v = 0; v < this->Media.size(); ++v)
+  {
+    // Components share a grid.
+    count += v > 0 && this->TheScene.mixture == Mixture::Components
+               ? 0
+               : this->Media[v].ranges().non_finite_voxels;
+  }
+  return count;
+}
+
+/// The first real collision, if there is one. Of several matters the tentative collisions are taken
+/// in the order in which the ray meets them.
+bool PathScene::collide(const glm::dvec3& begin,
+  const glm::dvec3& along,
+  double length,
+  Path& path,
+  Collision& found) const
+{
+  // One tracker each; nearly always there is one.
+  constexpr std::size_t few = 4;
+  std::vector<Tracker> many;
+  alignas(Tracker) unsigned char memory[few * sizeof(Tracker)];
+  Tracker* trackers = reinterpret_cast<Tracker*>(memory);
+  std::size_t count = 0;
+  if (this->Matter.size() > few)
+  {
+    many.reserve(this->Matter.size());
+  }
+  for (const auto& matter : this->Matter)
+  {
+    const MatterRay ray = matter->ray(begin, along);
+    if (!(ray.from < std::min(ray.to, length)))
+    {
+      continue;
+    }
+    Tracker* tracker = nullptr;
+    if (this->Matter.size() > few)
+    {
+      many.emplace_back(*matter, ray, length);
+      trackers = many.data();
+      tracker = &many.back();
+    }
+    else
+    {
+      tracker = new (trackers + count) Tracker(*matter, ray, length);
+    }
+    ++count;
+    tracker->next(path.random);
+  }
+  while (count > 0)
+  {
+    Tracker& first = *std::min_element(
+      trackers, trackers + count, [](const Tracker& a, const Tracker& b) { return a.at() < b.at(); });
+    if (first.at() == infinity)
+    {
+      return false;
+    }
+    ++path.counts.collisions;
+    const PathMatter& matter = first.matter();
+    const glm::dvec3 place = first.place();
+    const double rate = first.brick_rate();
+    if (matter.emits())
+    {
+      found.emitted += path.weight() * matter.emission(place) / rate;
+    }
+    const double density = matter.density(place, path.random);
+    const double share = std::min(density / rate, 1.0); // at most 1 but for rounding
+    const glm::dvec3 real = share * matter.channels();
+    if (path.random.uniform() < real[path.hero])
+    {
+      if (this->Coloured)
+      {
+        path.chances *= real / real[path.hero];
+      }
+      found.at = first.at();
+      found.matter = &matter;
+      found.place = place;
+      return true;
+    }
+    if (this->Coloured)
+    {
+      path.chances *= (1.0 - real) / (1.0 - real[path.hero]);
+    }
+    first.next(path.random);
+  }
+  return false;
+}
+
+/// Residual ratio tracking: what is in a brick everywhere dims in closed form, and collisions with
+/// the rest count by what they let through (J. Novák, A. Selle, W. Jarosz, Residual ratio tracking for
+/// estimating attenuation in participating media, SIGGRAPH Asia 2014).
+glm::dvec3 PathScene::transmittance(const glm::dvec3& begin,
+  const glm::dvec3& along,
+  double length,
+  Path& path) const
+{
+  glm::dvec3 passes(1.0); // what collisions let through
+  double roulette = 0.1;
+  for (const auto& matter : this->Matter)
+  {
+    const MatterRay ray = matter->ray(begin, along);
+    if (!(ray.from < std::min(ray.to, length)))
+    {
+      continue;
+    }
+    const glm::dvec3& channels = matter->channels();
+    const PathBricks& bricks = matter->bricks();
+    const double channel = largest(channels);
+    BrickWalk walk(bricks, ray.begin, ray.along, ray.from, std::min(ray.to, length));
+    double depth = 0.0; // of what is everywhere, by a channel of 1
+    double left = -std::log(path.random.uniform());
+    while (walk.next())
+    {
+      const double rate = bricks.rate[walk.brick()];
+      const double least = bricks.least[walk.brick()];
+      depth += least * ray.scale * (walk.to() - walk.from());
+      const double extra = (rate - channel * least) * ray.scale;
+      double at = walk.from();
+      while (left < (walk.to() - at) * extra)
+      {
+        at += left / extra;
+        left = -std::log(path.random.uniform());
+        ++path.counts.collisions;
+        const double density = matter->density(ray.begin + at * ray.along, path.random);
+        const double more = std::max(density - least, 0.0) / (rate - channel * least);
+        passes *= glm::max(1.0 - more * channels, 0.0);
+      }
+      left -= (walk.to() - at) * extra;
+      const double most = largest(passes * glm::exp(-depth * channels));
+      if (most < roulette)
+      {
+        constexpr double survival = 0.25;
+        if (!(most > 0.0) || path.random.uniform() >= survival)
+        {
+          return glm::dvec3(0.0);
+        }
+        passes /= survival;
+        roulette *= survival;
+      }
+    }
+    passes *= glm::exp(-depth * channels);
+  }
+  return passes;
+}
+
+glm::dvec3 PathScene::lit(const glm::dvec3& place,
+  const glm::dvec3& along,
+  const PhaseSampler& phase,
+  Path& path) const
+{
+  if (this->Lamps.empty())
+  {
+    return glm::dvec3(0.0);
+  }
+  std::size_t which = 0;
+  double chance = 1.0;
+  if (this->Lamps.size() > 1)
+  {
+    const double u = path.random.uniform();
+    which = std::upper_bound(this->LampUpTo.begin(), this->LampUpTo.end() - 1, u) -
+            this->LampUpTo.begin();
+    chance = this->LampUpTo[which] - (which > 0 ? this->LampUpTo[which - 1] : 0.0);
+  }
+  const Lamp& lamp = this->Lamps[which];
+  const glm::dvec3 offset = lamp.offset(place);
+  const glm::dvec3 travel = lamp.travel(offset);
+  const glm::dvec3 arrives = lamp.irradiance(offset) * phase.value(along, -travel) / chance;
+  if (!(largest(arrives) > 0.0))
+  {
+    return glm::dvec3(0.0);
+  }
+  ++path.counts.shadow_rays;
+  return arrives * this->transmittance(place, -travel,
+                     lamp.is_positional() ? glm::length(offset) : infinity, path);
+}
+
+glm::dvec3 PathScene::sky(const glm::dvec3& direction) const
+{
+  const Sky& sky = this->TheScene.sky;
+  return glm::dot(direction, sky.up) >= 0.0 ? sky.radiance : sky.ground;
+}
+
+glm::dvec3 PathScene::radiance(const glm::dvec3& begin,
+  const glm::dvec3& along,
+  double length,
+  int most_scatterings,
+  RandomStream& random,
+  PathCounts& counts) const
+{
+  Path path{ random, counts };
+  if (this->Coloured)
+  {
+    path.hero = static_cast<int>(3.0 * random.uniform());
+  }
+  glm::dvec3 sum(0.0);
+  glm::dvec3 place = begin;
+  glm::dvec3 direction = along;
+  for (int scatterings = 0;; ++scatterings)
+  {
+    Collision found;
+    const bool collides = this->collide(place, direction, length, path, found);
+    sum += found.emitted;
+    if (!collides)
+    {
+      return scatterings > 0 ? sum + path.weight() * this->sky(direction) : sum;
+    }
+    if (!found.matter->scatters() || (most_scatterings > 0 && scatterings == most_scatterings))
+    {
+      return sum;
+    }
+    path.kept *= found.matter->albedo(found.place);
+    const double weight = largest(path.weight());
+    if (weight < least_weight)
+    {
+      const double chance = weight / (2.0 * least_weight);
+      if (!(weight > 0.0) || random.uniform() >= chance)
+      {
+        return sum;
+      }
+      path.kept /= chance;
+    }
+    ++counts.scatterings;
+    place += found.at * direction;
+    const PhaseSampler& phase = found.matter->phase();
+    sum += path.weight() * this->lit(place, direction, phase, path);
+    if (most_scatterings > 0 && scatterings + 1 == most_scatterings && largest(this->TheScene.sky.radiance + this->TheScene.sky.ground) <= 0.0)
+    {
+      return sum; // nothing more can come
+    }
+    direction = phase.sample(direction, random);
+    length = infinity;
+  }
+}
+
+}

@@ -1,0 +1,315 @@
+#include "Transport/path_tracer.h"
+
+#include "Transport/path_error.h"
+#include "Transport/path_scene.h"
+#include "Transport/reference_ray.h"
+#include "Transport/step_control.h"
+
+#include <glm/geometric.hpp>
+
+#include <tbb/blocked_range.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+namespace brume
+{
+
+namespace
+{
+
+using Clock = std::chrono::steady_clock;
+
+/// From so many paths a pixel on, standard errors are estimated.
+constexpr int fewest_samples = 8;
+
+double seconds_since(Clock::time_point start)
+{
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void check(const Scene& scene, const PathSettings& settings, const Film& film)
+{
+  if (settings.samples_per_pixel < 1 || !(settings.tolerance >= 0.0) ||
+      !(settings.seconds >= 0.0) || settings.most_scatterings < 0 || !(settings.step >= 0.0))
+  {
+    throw std::invalid_argument("path tracing needs at least one sample a pixel, and a tolerance, "
+                                "a time, scatterings and a step that are not negative");
+  }
+  if (film.width < 1 || film.height < 1)
+  {
+    throw std::invalid_argument("the film has no pixels");
+  }
+  if (scene.fog.enabled)
+  {
+    throw std::invalid_argument("paths are not traced through fog without bounds yet: take a ray "
+                                "march, or leave the fog out");
+  }
+}
+
+/// The scene as what is behind it sees it: it dims, and nothing else.
+Scene without_light(const Scene& scene)
+{
+  Scene dark = scene;
+  dark.lights.clear();
+  dark.sky = Sky();
+  for (Volume& volume : dark.volumes)
+  {
+    volume.medium = Medium();
+    volume.shading.enabled = false;
+  }
+  return dark;
+}
+
+}
+
+struct PathTracer::Kept
+{
+  Marcher Absorption;
+  int Width = 0;
+  int Height = 0;
+  std::vector<double> Sums;    ///< R, G, B a pixel, over its paths
+  std::vector<double> Squares; ///< the same of squares
+  std::vector<int> Samples;    ///< paths of each pixel of a row
+  Film Behind;                 ///< transmittance and depth
+
+  void begin(const Film& film)
+  {
+    this->Width = film.width;
+    this->Height = film.height;
+    this->Sums.assign(3 * film.size(), 0.0);
+    this->Squares.assign(3 * film.size(), 0.0);
+    this->Samples.assign(film.height, 0);
+    this->Behind = Film(film.width, film.height);
+  }
+  bool fits(const Film& film) const
+  {
+    return this->Width == film.width && this->Height == film.height;
+  }
+  int fewest() const { return *std::min_element(this->Samples.begin(), this->Samples.end()); }
+
+  /// The variance of the mean of a pixel's paths.
+  double variance(std::size_t pixel, int channel) const
+  {
+    const int n = this->Samples[pixel / this->Width];
+    const double sum = this->Sums[3 * pixel + channel];
+    const double mean = sum / n;
+    return n < 2 ? 0.0
+                 : std::max(this->Squares[3 * pixel + channel] - sum * mean, 0.0) /
+                     (static_cast<double>(n) * (n - 1));
+  }
+  PathError error() const
+  {
+    PathError error;
+    for (std::size_t pixel = 0; pixel < this->Behind.size(); ++pixel)
+    {
+      const double v[3] = {
+        this->variance(pixel, 0), this->variance(pixel, 1), this->variance(pixel, 2)
+      };
+      error.add(v);
+    }
+    return error;
+  }
+  void show(Film& film) const
+  {
+    film.transmittance[0] = this->Behind.transmittance[0];
+    film.transmittance[1] = this->Behind.transmittance[1];
+    film.transmittance[2] = this->Behind.transmittance[2];
+    film.depth = this->Behind.depth;
+    for (std::size_t pixel = 0; pixel < film.size(); ++pixel)
+    {
+      const int n = std::max(this->Samples[pixel / this->Width], 1);
+      double largest = 0.0;
+      for (int c = 0; c < 3; ++c)
+      {
+        film.radiance[c][pixel] = static_cast<float>(this->Sums[3 * pixel + c] / n);
+        largest = std::max(largest, this->variance(pixel, c));
+      }
+      film.error[pixel] = static_cast<float>(3.0 * std::sqrt(largest));
+    }
+  }
+};
+
+PathTracer::PathTracer()
+  : Internal(std::make_unique<Kept>())
+{
+}
+
+PathTracer::~PathTracer() = default;
+
+PathStatistics PathTracer::render(const Scene& scene,
+  const PathSettings& settings,
+  Film& film,
+  const Progress& progress)
+{
+  check(scene, settings, film);
+  Kept& kept = *this->Internal;
+  PathStatistics statistics;
+  const auto begin = Clock::now();
+  const PathScene paths(scene);
+  statistics.threads =
+    settings.threads > 0 ? settings.threads : tbb::info::default_concurrency();
+  statistics.non_finite_voxels = paths.non_finite_voxels();
+  if (!settings.resume || !kept.fits(film))
+  {
+    kept.begin(film);
+    MarchSettings march;
+    march.leave_error = 1e-5;
+    march.threads = settings.threads;
+    const Scene dark = without_light(scene);
+    const double step = settings.step > 0.0 ? settings.step : 0.25 * smallest_voxel_edge(scene);
+    march.rule = follows_rule(dark, StepRule::Cells) ? StepRule::Cells : StepRule::Midpoint;
+    march.step = march.rule == StepRule::Cells ? smallest_voxel_edge(scene) : step;
+    const bool whole = kept.Absorption
+                         .render(dark, march, kept.Behind,
+                           [&](double) { return !progress || progress(0.0); })
+                         .completed;
+    if (!whole)
+    {
+      kept.Width = 0; // nothing to go on from
+      return statistics;
+    }
+  }
+  statistics.seconds_prepare = seconds_since(begin);
+
+  const auto start = Clock::now();
+  const ReferenceRays rays(scene, film.width, film.height);
+  const std::thread::id caller = std::this_thread::get_id();
+  std::atomic<bool> aborted{ false };
+  std::atomic<std::uint64_t> collisions{ 0 };
+  std::atomic<std::uint64_t> scatterings{ 0 };
+  std::atomic<std::uint64_t> shadow_rays{ 0 };
+  std::atomic<std::uint64_t> traced{ 0 };
+  const int already = kept.fewest();
+  const bool limited = settings.seconds > 0.0 || settings.tolerance > 0.0;
+  double estimated = std::numeric_limits<double>::infinity();
+
+  /// Brings every pixel to `target` paths.
+  const auto pass = [&](int target)
+  {
+    std::atomic<int> rows{ 0 };
+    const double before = double(kept.fewest() - already) / std::max(settings.samples_per_pixel - already, 1);
+    const double part = double(target - kept.fewest()) / std::max(settings.samples_per_pixel - already, 1);
+    tbb::task_arena arena(statistics.threads);
+    arena.execute(
+      [&]
+      {
+        tbb::parallel_for(
+          tbb::blocked_range<int>(0, film.height, 1),
+          [&](const tbb::blocked_range<int>& range)
+          {
+            for (int y = range.begin(); y != range.end() && !aborted; ++y)
+            {
+              PathCounts counts;
+              const int first = kept.Samples[y];
+              for (int x = 0; x < film.width; ++x)
+              {
+                const PixelRay ray = rays.ray(x, y);
+                if (ray.empty() || !(ray.world_length > 0.0))
+                {
+                  continue;
+                }
+                const glm::dvec3 along = ray.world_along / ray.world_length;
+                const std::size_t pixel = static_cast<std::size_t>(y) * film.width + x;
+                double* sums = &kept.Sums[3 * pixel];
+                double* squares = &kept.Squares[3 * pixel];
+                for (int n = first; n < target; ++n)
+                {
+                  RandomStream random(settings.seed, pixel, static_cast<std::uint32_t>(n));
+                  const glm::dvec3 radiance = paths.radiance(ray.world_begin, along,
+                    ray.world_length, settings.most_scatterings, random, counts);
+                  for (int c = 0; c < 3; ++c)
+                  {
+                    sums[c] += radiance[c];
+                    squares[c] += radiance[c] * radiance[c];
+                  }
+                }
+                traced += static_cast<std::uint64_t>(std::max(target - first, 0));
+              }
+              kept.Samples[y] = std::max(target, first);
+              collisions += counts.collisions;
+              scatterings += counts.scatterings;
+              shadow_rays += counts.shadow_rays;
+              const int finished = ++rows;
+              if (progress && std::this_thread::get_id() == caller &&
+                  !progress(before + part * finished / film.height))
+              {
+                aborted = true;
+              }
+            }
+          },
+          tbb::simple_partitioner());
+      });
+  };
+
+  if (paths.can_send())
+  {
+    int target = already;
+    while (target < settings.samples_per_pixel && !aborted)
+    {
+      // Passes double, so that what is asked between them costs little.
+      int next = limited ? std::min(settings.samples_per_pixel, std::max(2 * target, 1))
+                         : settings.samples_per_pixel;
+      const int done = target - already;
+      if (settings.seconds > 0.0 && done > 0)
+      {
+        const double passed = seconds_since(start);
+        const double affordable = done * (settings.seconds - passed) / std::max(passed, 1e-9);
+        if (affordable < 1.0)
+        {
+          break;
+        }
+        next = static_cast<int>(std::min<double>(next, target + affordable));
+      }
+      pass(next);
+      target = next;
+      if (settings.tolerance > 0.0 && target >= fewest_samples && !aborted)
+      {
+        estimated = kept.error().quantile();
+        if (estimated <= settings.tolerance)
+        {
+          break;
+        }
+      }
+    }
+  }
+  else
+  {
+    std::fill(kept.Samples.begin(), kept.Samples.end(), settings.samples_per_pixel);
+  }
+  kept.show(film);
+  statistics.samples_per_pixel = kept.fewest();
+  if (statistics.samples_per_pixel >= fewest_samples || !paths.can_send())
+  {
+    const PathError error = kept.error();
+    statistics.estimated_error = error.quantile();
+    statistics.rms_error = error.rms();
+  }
+  else
+  {
+    statistics.estimated_error = std::numeric_limits<double>::infinity();
+    statistics.rms_error = std::numeric_limits<double>::infinity();
+  }
+  if (progress && !aborted && !progress(1.0))
+  {
+    aborted = true;
+  }
+  statistics.seconds = seconds_since(start);
+  statistics.paths = traced;
+  statistics.collisions = collisions;
+  statistics.scatterings = scatterings;
+  statistics.shadow_rays = shadow_rays;
+  statistics.completed = !aborted;
+  return statistics;
+}
+
+}

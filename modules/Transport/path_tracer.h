@@ -1,0 +1,88 @@
+// The path tracer: an unbiased estimate of the light that any number of scatterings sends to the
+// eye, and of its own error. Theory: docs/theory/paths.md.
+#pragma once
+
+#include "Transport/film.h"
+#include "Transport/marcher.h"
+#include "Transport/scene.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+namespace brume
+{
+
+struct PathSettings
+{
+  /// Paths a pixel, at the most; 1 to 2³¹ − 1.
+  int samples_per_pixel = 64;
+  /// Stops sooner when the estimated error is no larger; see PathStatistics. 0: never.
+  double tolerance = 0.0;
+  /// Stops sooner rather than take longer than this, in seconds, after one path a pixel. 0: never.
+  double seconds = 0.0;
+  /// Scatterings of a path, at the most; 0: any number. With 1 the picture is the ray marcher's
+  /// without octaves.
+  int most_scatterings = 0;
+  /// Chooses among all pictures of this noise: same seed, same picture, bit for bit, for every number
+  /// of threads.
+  std::uint32_t seed = 1;
+  /// Step of the transmittance through classified matter, in the data's units; 0: a quarter of the
+  /// smallest voxel edge. Densities need none.
+  double step = 0.0;
+  /// Goes on where the last render() of the same scene stopped, with its paths counted in: for
+  /// pictures that refine. The caller vouches that nothing else has changed.
+  bool resume = false;
+  /// Worker threads; 0 for as many as the machine has processors.
+  int threads = 0;
+};
+
+struct PathStatistics
+{
+  double seconds_prepare = 0.0; ///< bounds of bricks, transmittance
+  double seconds = 0.0;         ///< paths alone, of this call
+  int samples_per_pixel = 0;    ///< paths that each pixel has, those resumed from among them
+  std::uint64_t paths = 0;      ///< of this call
+  std::uint64_t collisions = 0; ///< places at which matter was read, of this call
+  std::uint64_t scatterings = 0;
+  std::uint64_t shadow_rays = 0;
+  /// What 99.9 % of the pixels' errors are expected to be below, as a fraction of white: each channel
+  /// normally distributed with the standard error of its own samples. +infinity before eight paths a
+  /// pixel.
+  double estimated_error = 0.0;
+  /// Root mean square of the standard errors, over pixels and channels.
+  double rms_error = 0.0;
+  int threads = 0;
+  std::size_t non_finite_voxels = 0;
+  bool completed = false; ///< false when aborted; the film then holds what there was
+};
+
+/// Draws scenes by tracing paths in composite mode. Film::radiance is the mean of the paths through
+/// each pixel's centre; Film::transmittance and depth are the ray marcher's, whose error is far
+/// smaller; Film::error is three times the largest channel's standard error, from the second path on.
+///
+/// What is not simulated: gradient shading (the phase function holds instead), octaves (all
+/// scatterings are followed), silver lining and powder (they are no physics), fog.
+///
+/// Not to be used from two threads at once; two tracers may be.
+class PathTracer
+{
+public:
+  PathTracer();
+  ~PathTracer();
+  PathTracer(const PathTracer&) = delete;
+  PathTracer& operator=(const PathTracer&) = delete;
+
+  /// Fills the film, whose size is the picture's. Throws std::invalid_argument for a scene or settings
+  /// that cannot be drawn.
+  PathStatistics render(const Scene& scene,
+    const PathSettings& settings,
+    Film& film,
+    const Progress& progress = {});
+
+private:
+  struct Kept;
+  std::unique_ptr<Kept> Internal;
+};
+
+}

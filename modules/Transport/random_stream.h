@@ -1,0 +1,62 @@
+// Random numbers that depend on what they are for, and on nothing else.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace brume
+{
+
+/// A stream of uniform random numbers for one path: the same for the same seed, pixel and sample,
+/// whatever else is drawn and on whichever thread. Philox 4×32 with ten rounds: J. K. Salmon, M. A.
+/// Moraes, R. O. Dror, D. E. Shaw, Parallel random numbers: as easy as 1, 2, 3, SC 2011.
+class RandomStream
+{
+public:
+  RandomStream(std::uint32_t seed, std::uint64_t pixel, std::uint32_t sample)
+    : Counter{ 0, sample, static_cast<std::uint32_t>(pixel), static_cast<std::uint32_t>(pixel >> 32) }
+    , Seed(seed)
+  {
+  }
+
+  /// The next 32 random bits.
+  std::uint32_t bits()
+  {
+    if (this->Used == 4)
+    {
+      this->Block = block(this->Counter, { this->Seed, 0x42727565u }); // a key of Brume's own
+      ++this->Counter[0];
+      this->Used = 0;
+    }
+    return this->Block[this->Used++];
+  }
+
+  /// The middle of one of 2³² equal parts of [0, 1]: never 0, never 1.
+  double uniform() { return (this->bits() + 0.5) * 0x1p-32; }
+
+  using Words = std::array<std::uint32_t, 4>;
+  /// The function itself, of a counter and a key.
+  static Words block(Words counter, std::array<std::uint32_t, 2> key)
+  {
+    for (int round = 0; round < 10; ++round)
+    {
+      const std::uint64_t a = std::uint64_t{ 0xD2511F53u } * counter[0];
+      const std::uint64_t b = std::uint64_t{ 0xCD9E8D57u } * counter[2];
+      counter = { static_cast<std::uint32_t>(b >> 32) ^ counter[1] ^ key[0],
+        static_cast<std::uint32_t>(b),
+        static_cast<std::uint32_t>(a >> 32) ^ counter[3] ^ key[1],
+        static_cast<std::uint32_t>(a) };
+      key[0] += 0x9E3779B9u;
+      key[1] += 0xBB67AE85u;
+    }
+    return counter;
+  }
+
+private:
+  Words Counter;
+  Words Block{};
+  std::uint32_t Seed;
+  int Used = 4;
+};
+
+}
