@@ -227,7 +227,7 @@ TEST(Particles, TellHowFarTheyAreAndStop)
       parts.push_back(done);
       return true;
     }));
-  EXPECT_GT(parts.size(), 5u);
+  ASSERT_GT(parts.size(), 5u);
   EXPECT_TRUE(std::is_sorted(parts.begin(), parts.end()));
   EXPECT_EQ(parts.back(), 1.0);
   EXPECT_EQ(field.particles(3.0)->size(),
