@@ -44,6 +44,16 @@ corner() {
     '0 -4 0' '16 -4 0' '8 7 16' '3 0 1 2' > "$1"
 }
 
+# moments FILE.nrrd: a series of 3³ voxels at 2, 4 and 6 s; all voxels are 5, 6 and 7.
+moments() {
+  {
+    printf '%s\n' NRRD0005 'type: short' 'dimension: 4' 'sizes: 3 3 3 3' 'encoding: ascii' \
+      'kinds: domain domain domain time' 'spacings: 1 1 1 2' 'axis mins: 0 0 0 2' \
+      'units: "mm" "mm" "mm" "s"' ''
+    awk 'BEGIN { for (i = 0; i < 81; ++i) print 5 + int(i / 27) }'
+  } > "$1"
+}
+
 # series FILE.nii: a 4D NIfTI of 4³ voxels at two times.
 series() {
   {
