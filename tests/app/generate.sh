@@ -82,6 +82,7 @@ for ending in vdb nii.gz raw tif; do
   expect_success
   run generate smoke --size 12 --time 0:2:3 --output "dots.$ending" --quiet
   expect_success
+  ! grep -qaE '20[0-9]{2}:[0-9]{2}:' smoke_0000.* || fail "expected no clock in the file"
   [ "$ending" = vdb ] || # which holds an identifier of its own
     cmp -s "smoke_0002.$ending" "dots.0002.$ending" || fail "expected the same file by both names"
   run info "smoke_%04d.$ending" --time-step 2
