@@ -418,7 +418,7 @@ TEST(VolumeWriters, ErrorsAreToldAndLeaveNothing)
   const std::string where = folder("errors");
   const auto image = image_of(VTK_FLOAT, Frames[0]);
   vtkNew<vtkImageData> empty;
-  for (const std::string& ending : { ".vti", ".nrrd", ".mha", ".nii", ".nii.gz", ".raw", ".tif" })
+  for (const std::string ending : { ".vti", ".nrrd", ".mha", ".nii", ".nii.gz", ".raw", ".tif" })
   {
     vtkNew<vtkBrumeImageWriter> writer;
     writer->SetInputData(image);
