@@ -121,7 +121,7 @@ EnvironmentPicture read_environment(const std::string& path, std::uint64_t limit
       "take an OpenEXR or Radiance HDR file");
   }
   if (found.width < 2 || found.width > widest || found.depth > 1 || found.height < 1 ||
-      std::abs(found.width - 2 * found.height) > 1)
+      found.height > widest || std::abs(found.width - 2 * found.height) > 1)
   {
     fail(path,
       "is a picture of " + std::to_string(found.width) + " x " + std::to_string(found.height) + " pixels",
