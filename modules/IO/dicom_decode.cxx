@@ -22,12 +22,14 @@ enum Outcome
   OtherSize = 11, ///< it gives other pixels than the header promises
 };
 
-/// What the decoder may take: the packed pixels, those of a picture in 32 bits, what is made of all, and
-/// GDCM's own tables.
+/// What the decoder takes: the packed pixels, those of a picture in 32 bits, and what is made of all.
 double decoder_memory(double bytes)
 {
-  return 4 * bytes + (64 << 20);
+  return 4 * bytes;
 }
+
+/// And what GDCM may take that does not grow with the pixels: headers, tables, the heap's own share.
+constexpr double Headroom = 64 << 20;
 
 /// What the process of its own does.
 int decode(
@@ -68,7 +70,7 @@ std::vector<unsigned char> decode_dicom(const std::string& owner, const std::str
   std::vector<unsigned char> pixels(bytes);
   const SharedMemory shared(bytes);
   const GuardResult result = run_guarded([&] { return decode(path, shared.data(), bytes, scalar_size, frames); },
-    1 + static_cast<double>(bytes) / 4e6, decoder_memory(static_cast<double>(bytes)), progress);
+    1 + static_cast<double>(bytes) / 4e6, decoder_memory(static_cast<double>(bytes)) + Headroom, progress);
   const bool done = result.end == GuardEnd::Finished && result.status == Decoded;
   if (done)
   {

@@ -23,8 +23,8 @@ bool can_decode(const std::string& transfer_syntax);
 std::vector<unsigned char> decode_dicom(const std::string& owner, const std::string& path,
   std::uint64_t bytes, int scalar_size, std::uint64_t frames, const Progress& progress = {});
 
-/// The most that this takes in memory, the decoder's own and the pixels that it hands over, for a file of
-/// so many bytes of pixels.
+/// What this takes in memory for a file of so many bytes of pixels, the decoder's own and the pixels that it
+/// hands over.
 double decoding_need(double bytes);
 
 }
