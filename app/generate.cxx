@@ -98,7 +98,10 @@ void run(const Generator& generator, const Options& options, const Make& make)
     request.size = options.size;
     request.seed = options.seed;
     request.time = times[i];
-    request.sparse = holds_sparse(path);
+    // With a background of the user's the volume is made dense, and the writer cuts it.
+    const VolumeOutput& o = options.output;
+    request.sparse = holds_sparse(path) && !o.background && !(o.tolerance > 0.0);
+    request.level_set = o.grid_class == "auto" || o.grid_class == "level-set";
     request.progress = [&](double done) { overall(0.9 * done); };
     std::vector<std::string> messages;
     try
@@ -187,7 +190,16 @@ void add_kind(CLI::App& command, const Generator& generator)
   {
     kind->get_options()[i]->group("Options of the format");
   }
-  kind->footer("Example: brume generate " + generator.name + " --size 64 --output " +
+  std::string lacks;
+  if (!generator.seeded || generator.moves == Moves::No)
+  {
+    lacks = generator.seeded ? "It does not move: it has no time.\n"
+            : generator.moves == Moves::Yes
+              ? "There is one of its kind: it has no seed.\n"
+              : "There is one of its kind, which does not move: it has "
+                "neither seed nor time.\n";
+  }
+  kind->footer(lacks + "Example: brume generate " + generator.name + " --size 64 --output " +
                generator.name + ".nrrd");
   kind->callback([&generator, options, make] { run(generator, *options, make); });
 }
@@ -199,7 +211,8 @@ void add_generate(CLI::App& program)
   CLI::App* command =
     program.add_subcommand("generate", "Make a volume on the spot, and write it to a file");
   auto list = std::make_shared<bool>(false);
-  command->add_flag("--list", *list, "The kinds, one a line");
+  command->add_flag(
+    "--list", *list, "The kinds, one a line, and which of them take --seed and --time");
   command->require_subcommand(0, 1);
   for (const Generator& generator : generators())
   {
@@ -228,7 +241,9 @@ void add_generate(CLI::App& program)
         std::cout << generator.name << std::string(width + 2 - generator.name.size(), ' ')
                   << generator.summary;
         const std::string other = short_name(generator);
-        std::cout << (other.empty() ? "" : " (also: " + other + ")") << '\n';
+        std::cout << (other.empty() ? "" : " (also: " + other + ")")
+                  << (generator.seeded ? " [--seed]" : "")
+                  << (generator.moves == Moves::Yes ? " [--time]" : "") << '\n';
       }
     });
 }

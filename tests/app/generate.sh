@@ -7,6 +7,9 @@ expect_success
 for kind in cumulus cirrus valley-fog head-ct torso-ct smoke particles shape checker; do
   expect_output "^$kind +[^ ].*"
 done
+expect_output '^cumulus .*\[--seed\] \[--time\]$'
+expect_output '^head-ct .*units \[--seed\]$'
+expect_output '^ball .*density$'
 expect_no_files
 
 case_ "--help of the subcommand and of a kind"
@@ -23,6 +26,10 @@ expect_output 'metres'
 run generate head-ct --help
 expect_success
 refuse_output '[-][-]time'
+expect_output 'It does not move: it has no time'
+run generate slab --help
+refuse_output '[-][-]seed'
+expect_output 'neither seed nor time'
 
 case_ "volumes in their formats, as info then reads them"
 run generate head-ct --size 12 --output head-ct.nii.gz --quiet
@@ -54,6 +61,21 @@ expect_error 'half precision'
 run info half.vdb --grid temperature
 expect_output '^scalar type +half$'
 expect_output '^background +300$'
+
+case_ "smoke and shapes are sparse on the way to a .vdb, with the voxels of the dense one"
+run generate smoke --size 40 --time 1 --output sparse.vdb --quiet
+run generate smoke --size 40 --time 1 --output dense.vdb --background-tolerance 1e-30 --quiet
+run convert sparse.vdb sparse.vti --quiet
+run convert dense.vdb dense.vti --quiet
+expect_success
+cmp -s sparse.vti dense.vti || fail "expected the same voxels by either way"
+run generate shape --distance --size 40 --output band.vdb --quiet
+run generate shape --distance --size 40 --output whole.vti --quiet
+run convert whole.vti cut.vdb --grid-class level-set --quiet
+run convert band.vdb band.vti --level-set distance --quiet
+run convert cut.vdb cut.vti --level-set distance --quiet
+expect_success
+cmp -s band.vti cut.vti || fail "expected the same level set by either way"
 
 case_ "the same call makes the same bytes; another seed, time or option another volume"
 run generate cumulus --size 16 --output a.nrrd --quiet
@@ -139,8 +161,6 @@ cumulus --output a.nrrd --time 0,1,2
 cumulus --output a.nrrd --octaves 9
 cumulus --output a.nrrd --half
 cumulus --output a.vdb --compress
-cumulus --output a.vdb --size 16 --background 0.5
-cumulus --output a.vdb --size 16 --background-tolerance 0.5
 smoke --output a.vdb --size 12 --background 1 --grid-class level-set
 shape --output a.vdb --size 12 --distance --background 1
 head-ct --output a.nrrd --time 1
