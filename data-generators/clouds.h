@@ -42,7 +42,8 @@ struct CloudOptions
 
   /// Fraction of the ground under cloud, for cumulus fields and layers, 0 … 1: of the vertical
   /// lines that meet a density above `thinnest` somewhere, away from the box's sides (farther than
-  /// cloud_side_fade()), where clouds get fewer. It is met within 0.05 at time 0, in boxes from one
+  /// cloud_side_fade()), where clouds get fewer. It is met within 0.05 (of a field with
+  /// an offset of 0: 0.06) at time 0, in boxes from one
   /// cloud to 64 clouds wide; later on a narrow layer has what the wind brings.
   double coverage = 0.5;
   static constexpr double thinnest = 0.01;
