@@ -98,6 +98,23 @@ run generate smoke --size 12 --time 2 --output two.nii.gz --quiet
 expect_success
 cmp -s two.nii.gz smoke.0002.nii.gz || fail "expected the volume at time 2"
 
+for ending in vdb nii.gz raw tif; do
+  case_ "a series in any format is read back by a pattern: $ending"
+  run generate smoke --size 12 --time 0:2:3 --output "smoke_%04d.$ending" --quiet
+  expect_success
+  run generate smoke --size 12 --time 0:2:3 --output "dots.$ending" --quiet
+  expect_success
+  ! grep -qaE '20[0-9]{2}:[0-9]{2}:' smoke_0000.* || fail "expected no clock in the file"
+  [ "$ending" = vdb ] || # which holds an identifier of its own
+    cmp -s "smoke_0002.$ending" "dots.0002.$ending" || fail "expected the same file by both names"
+  run info "smoke_%04d.$ending" --time-step 2
+  expect_status 0
+  expect_output 'a series of 3 volumes, at 0 to 2; that at 2 is taken'
+  grep '^value range' ../out > ../last
+  run info "smoke_0002.$ending"
+  grep '^value range' ../out | cmp -s - ../last || fail "expected the values of the last file"
+done
+
 case_ "clouds and particles go into a .vdb; a distance becomes a level set"
 run generate cumulus --size 32 --output a.vdb --quiet
 expect_success
@@ -169,6 +186,12 @@ run generate cumulus --size 12 --output a.nrrd --quiet
 expect_success
 run info a.nrrd
 expect_success
+
+case_ "an interrupted series keeps the files that were done, and tells how many"
+interrupted INT 2 generate smoke --size 8 --time 0:1:10000 --output a.nrrd --quiet
+expect_failure 1
+expect_error '^brume: a\.[0-9]+\.nrrd: interrupted: [1-9][0-9]* of 10000 files are written: '
+expect_file a.0000.nrrd
 
 for ending in nii.gz vdb; do
   case_ "an interrupted call leaves what was there, and nothing else: $ending"
