@@ -276,7 +276,8 @@ SparseSample sample_sparse(const Field& field,
     }
     const std::size_t done = ++filled;
     if (progress && std::this_thread::get_id() == asker &&
-        done - told > topology.bricks.size() / 100)
+        done - told > topology.bricks.size() / 100 &&
+        done < topology.bricks.size()) // the end is told below
     {
       told = done;
       const double part = static_cast<double>(done) / topology.bricks.size();
