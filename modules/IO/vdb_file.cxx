@@ -455,6 +455,12 @@ VdbVolume read_vdb_grid(const std::string& path,
           "its grid '" + which.name + "' cannot be held: " + error.what(),
           "take a part of it");
       }
+      catch (const std::length_error& error)
+      {
+        fail(path,
+          "its grid '" + which.name + "' cannot be held: " + error.what(),
+          "take a part of it, or allow more (--max-memory)");
+      }
       if (!volume.voxels)
       {
         fail(path, "its grid '" + which.name + "' holds no voxels", "name another grid");
