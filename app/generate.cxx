@@ -80,40 +80,56 @@ void run(const Generator& generator, const Options& options, const Make& make)
   const std::vector<double> times = times_of(options.time);
   const bool series = options.time.find(':') != std::string::npos;
   std::vector<VolumeOutput> outputs(times.size(), options.output);
-  for (std::size_t i = 0; series && i < outputs.size(); ++i)
+  const bool numbered = series || names_a_series(options.output.path);
+  for (std::size_t i = 0; numbered && i < outputs.size(); ++i)
   {
-    outputs[i].path = numbered_path(options.output.path, static_cast<int>(i));
+    outputs[i].path = numbered_path(options.output.path, static_cast<std::int64_t>(i));
   }
   check_volume_output(outputs.front(), "");
   const InterruptionWatch watch;
   std::set<std::string> told; // what a format cannot hold is the same for all of a series
+  ProgressBar bar("making " + options.output.path, !options.quiet);
+  const double count = static_cast<double>(times.size());
   for (std::size_t i = 0; i < times.size(); ++i)
   {
     const std::string& path = outputs[i].path;
-    ProgressBar bar("making " + path, !options.quiet);
+    const auto overall = [&](double done) { bar.update((static_cast<double>(i) + done) / count); };
     GeneratorRequest request;
     request.size = options.size;
     request.seed = options.seed;
     request.time = times[i];
-    request.sparse = holds_sparse(path);
-    request.progress = [&bar](double done) { bar.update(0.9 * done); };
-    Input volume = make(request);
-    volume.name = generator.name;
-    const std::vector<std::string> messages =
-      write_volume(volume, outputs[i], [&bar](double done) { bar.update(0.9 + 0.1 * done); });
-    bar.clear();
+    // With a background of the user's the volume is made dense, and the writer cuts it.
+    const VolumeOutput& o = options.output;
+    request.sparse = holds_sparse(path) && !o.background && !(o.tolerance > 0.0);
+    request.level_set = o.grid_class == "auto" || o.grid_class == "level-set";
+    request.progress = [&](double done) { overall(0.9 * done); };
+    std::vector<std::string> messages;
+    try
+    {
+      Input volume = make(request);
+      volume.name = generator.name;
+      messages = write_volume(volume, outputs[i], [&](double done) { overall(0.9 + 0.1 * done); });
+    }
+    catch (const Failure&)
+    {
+      check_interrupted_series(path, i, times.size());
+      throw;
+    }
     for (const std::string& message : messages)
     {
       if (!options.quiet && told.insert(message).second)
       {
+        bar.clear();
         std::cerr << "brume: " << path << ": " << message << '\n';
       }
     }
   }
+  bar.clear();
   if (series && !options.quiet)
   {
     std::cerr << "brume: " << outputs.front().path << " to " << outputs.back().path << ": "
-              << times.size() << " volumes, a file each\n";
+              << times.size() << " volumes, a file each: read them as "
+              << read_as(options.output.path) << '\n';
   }
 }
 
@@ -174,7 +190,16 @@ void add_kind(CLI::App& command, const Generator& generator)
   {
     kind->get_options()[i]->group("Options of the format");
   }
-  kind->footer("Example: brume generate " + generator.name + " --size 64 --output " +
+  std::string lacks;
+  if (!generator.seeded || generator.moves == Moves::No)
+  {
+    lacks = generator.seeded ? "It does not move: it has no time.\n"
+            : generator.moves == Moves::Yes
+              ? "There is one of its kind: it has no seed.\n"
+              : "There is one of its kind, which does not move: it has "
+                "neither seed nor time.\n";
+  }
+  kind->footer(lacks + "Example: brume generate " + generator.name + " --size 64 --output " +
                generator.name + ".nrrd");
   kind->callback([&generator, options, make] { run(generator, *options, make); });
 }
@@ -186,7 +211,8 @@ void add_generate(CLI::App& program)
   CLI::App* command =
     program.add_subcommand("generate", "Make a volume on the spot, and write it to a file");
   auto list = std::make_shared<bool>(false);
-  command->add_flag("--list", *list, "The kinds, one a line");
+  command->add_flag(
+    "--list", *list, "The kinds, one a line, and which of them take --seed and --time");
   command->require_subcommand(0, 1);
   for (const Generator& generator : generators())
   {
@@ -215,7 +241,9 @@ void add_generate(CLI::App& program)
         std::cout << generator.name << std::string(width + 2 - generator.name.size(), ' ')
                   << generator.summary;
         const std::string other = short_name(generator);
-        std::cout << (other.empty() ? "" : " (also: " + other + ")") << '\n';
+        std::cout << (other.empty() ? "" : " (also: " + other + ")")
+                  << (generator.seeded ? " [--seed]" : "")
+                  << (generator.moves == Moves::Yes ? " [--time]" : "") << '\n';
       }
     });
 }

@@ -8,6 +8,7 @@
 #include "vtkBrumePhantomSource.h"
 #include "vtkBrumeSignedDistanceSource.h"
 #include "vtkBrumeSmokeSource.h"
+#include "vtkBrumeSparseVolume.h"
 
 #include "vtkNew.h"
 
@@ -208,7 +209,28 @@ Make declare_smoke(CLI::App& command)
         "give it at least --air-temperature",
         BadCall);
     }
-    Input input = run_source(source, request);
+    source->SetSparse(request.sparse);
+    GeneratorRequest part = request; // of the progress, too: two grids are two passes
+    part.progress = [&request](double done) { request.progress(0.5 * done); };
+    Input input = run_source(source, request.sparse && request.progress ? part : request);
+    if (input.sparse)
+    {
+      vtkNew<Source> heat;
+      settings.apply(heat);
+      heat->SetSize(request.size);
+      heat->SetSeed(request.seed);
+      heat->SetTime(request.time);
+      heat->SetSparse(true);
+      heat->SetSparseQuantityToTemperature();
+      part.progress = [&request](double done)
+      {
+        if (request.progress)
+        {
+          request.progress(0.5 + 0.5 * done);
+        }
+      };
+      input.more_sparse.push_back(run_source(heat, part).sparse);
+    }
     input.length_unit = "m";
     input.backgrounds["temperature"] = source->GetAirTemperature();
     return input;
@@ -400,6 +422,7 @@ Make declare_shape(CLI::App& command)
     {
       source->SetBounds(split_numbers(o->bounds).data());
     }
+    source->SetSparse(request.sparse && (!o->distance || request.level_set));
     Input input = run_source(source, request);
     input.signed_distance = o->distance;
     return input;

@@ -61,6 +61,8 @@ struct GeneratorRequest
   /// volume first gives Input::sparse then; others give Input::image, which the writer makes
   /// sparse.
   bool sparse = false;
+  /// That file may hold a level set, cut to a narrow band, where the volume is a signed distance.
+  bool level_set = false;
   std::function<void(double)>
     progress; ///< called with the part that is done, in [0, 1]; may be empty
 };

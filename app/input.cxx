@@ -29,6 +29,13 @@ namespace
 
 using Progress = std::function<void(double)>;
 
+/// A file's or a folder's name without the folders around it.
+std::string name_of(const std::string& spec)
+{
+  const std::filesystem::path path(spec);
+  return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
+
 Input make_sample(const std::string& name, const Progress& progress)
 {
   std::string known;
@@ -123,8 +130,21 @@ void name_choices(vtkBrumeImageReader* reader, Failure& failure)
 
 void name_choices(vtkBrumeOpenVDBReader*, Failure&) {}
 
-/// Updates a reader to what `choice` says, and throws what it complains of as "FILE: what is wrong:
-/// what to do". Puts what it tells of times into `input`.
+/// Throws what a reader complains of as "FILE: what is wrong: what to do".
+template <class Reader>
+void check(Reader* reader, const std::string& path)
+{
+  InterruptionWatch::check(path.c_str());
+  if (*reader->GetErrorMessage())
+  {
+    Failure failure(reader->GetErrorMessage());
+    name_choices(reader, failure);
+    throw failure;
+  }
+}
+
+/// Updates a reader to what `choice` says, and throws what it complains of. Puts what it tells of times
+/// into `input`. `progress` must live as long as the reader is updated.
 template <class Reader>
 void read(Reader* reader, const std::string& path, const InputChoice& choice,
   const Progress& progress, Input& input)
@@ -149,13 +169,7 @@ void read(Reader* reader, const std::string& path, const InputChoice& choice,
       reader->UpdateTimeStep(input.times[input.time_step]);
     }
   }
-  InterruptionWatch::check(path.c_str());
-  if (*reader->GetErrorMessage())
-  {
-    Failure failure(reader->GetErrorMessage());
-    name_choices(reader, failure);
-    throw failure;
-  }
+  check(reader, path);
 }
 
 template <class Reader>
@@ -169,20 +183,55 @@ std::vector<std::string> messages_of(Reader* reader)
   return messages;
 }
 
-Input open_image(const std::string& path, const InputChoice& choice, const Progress& progress)
+/// What the reader has read, into `input`.
+void take(vtkBrumeImageReader* reader, Input& input)
 {
-  vtkNew<vtkBrumeImageReader> reader;
-  reader->SetSeries(choice.series.empty() ? nullptr : choice.series.c_str());
-  Input input;
-  read(reader.Get(), path, choice, progress, input);
   input.time_unit = reader->GetTimeUnit();
   input.image = reader->GetOutput();
   input.format = reader->GetFormat();
   input.length_unit = reader->GetLengthUnit();
   input.value_unit = reader->GetValueUnit();
   input.patient_axes = reader->GetPatientAxes();
-  input.messages = messages_of(reader.Get());
+  input.messages = messages_of(reader);
+}
+
+Input open_image(const std::string& path, const InputChoice& choice, const Progress& progress)
+{
+  vtkNew<vtkBrumeImageReader> reader;
+  reader->SetSeries(choice.series.empty() ? nullptr : choice.series.c_str());
+  Input input;
+  read(reader.Get(), path, choice, progress, input);
+  take(reader, input);
   return input;
+}
+
+/// All volumes of an image over time, by one reader.
+void visit_images(const std::string& path, const InputChoice& choice, const Progress& progress,
+  const std::function<void(Input&)>& visit)
+{
+  vtkNew<vtkBrumeImageReader> reader;
+  reader->SetSeries(choice.series.empty() ? nullptr : choice.series.c_str());
+  Input first;
+  read(reader.Get(), path, choice, progress, first);
+  for (std::size_t step = 0; step == 0 || step < first.times.size(); ++step)
+  {
+    if (step > 0)
+    {
+      reader->UpdateTimeStep(first.times[step]);
+      check(reader.Get(), path);
+    }
+    Input input;
+    input.times = first.times;
+    input.time_step = static_cast<int>(step);
+    take(reader, input);
+    // The visitor's own, which it may change and release.
+    vtkNew<vtkImageData> image;
+    image->ShallowCopy(input.image);
+    input.image = image;
+    input.name = name_of(path);
+    reader->GetOutput()->Initialize();
+    visit(input);
+  }
 }
 
 Input open_sparse(const std::string& path, const InputChoice& choice, const Progress& progress)
@@ -236,11 +285,19 @@ Input open_sparse(const std::string& path, const InputChoice& choice, const Prog
 
 }
 
-Input open_input(const std::string& spec, const Progress& progress, const InputChoice& choice)
+namespace
 {
-  const std::string prefix = "sample:";
-  const bool sample = spec.compare(0, prefix.size(), prefix) == 0;
-  const bool sparse = !sample && vtkBrumeOpenVDBReader::CanReadFile(spec.c_str());
+
+const char Prefix[] = "sample:";
+
+bool is_sample(const std::string& spec)
+{
+  return spec.compare(0, sizeof(Prefix) - 1, Prefix) == 0;
+}
+
+/// Throws where the input is of a kind that has not what is chosen.
+void check_choice(const std::string& spec, const InputChoice& choice, bool sample, bool sparse)
+{
   if (!choice.grid.empty() && !sparse)
   {
     throw Failure("--grid " + choice.grid, spec + " is not an OpenVDB file, which has grids to choose from",
@@ -261,14 +318,47 @@ Input open_input(const std::string& spec, const Progress& progress, const InputC
     throw Failure(choice.time ? "--time" : "--time-step", spec + " is one volume, not a series",
       "leave it out", BadCall);
   }
+}
+
+}
+
+Input open_input(const std::string& spec, const Progress& progress, const InputChoice& choice)
+{
+  const bool sample = is_sample(spec);
+  const bool sparse = !sample && vtkBrumeOpenVDBReader::CanReadFile(spec.c_str());
+  check_choice(spec, choice, sample, sparse);
   if (sample)
   {
-    return make_sample(spec.substr(prefix.size()), progress);
+    return make_sample(spec.substr(sizeof(Prefix) - 1), progress);
   }
   Input input = sparse ? open_sparse(spec, choice, progress) : open_image(spec, choice, progress);
-  const std::filesystem::path path(spec);
-  input.name = (path.has_filename() ? path : path.parent_path()).filename().string();
+  input.name = name_of(spec);
   return input;
+}
+
+void for_each_volume(const std::string& spec, const Progress& progress, const InputChoice& choice,
+  const std::function<void(Input&)>& visit)
+{
+  InputChoice at = choice;
+  at.time.reset();
+  at.time_step.reset();
+  if (!is_sample(spec) && !vtkBrumeOpenVDBReader::CanReadFile(spec.c_str()))
+  {
+    check_choice(spec, at, false, false);
+    visit_images(spec, at, progress, visit);
+    return;
+  }
+  std::size_t count = 1;
+  for (std::size_t step = 0; step < count; ++step)
+  {
+    if (step > 0)
+    {
+      at.time_step = static_cast<int>(step);
+    }
+    Input input = open_input(spec, progress, at);
+    count = std::max<std::size_t>(input.times.size(), 1);
+    visit(input);
+  }
 }
 
 Input open_input_with_bar(const std::string& spec, const InputChoice& choice, bool quiet)

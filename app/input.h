@@ -62,7 +62,15 @@ struct InputChoice
 Input open_input(const std::string& spec, const std::function<void(double)>& progress = {},
   const InputChoice& choice = {});
 
-/// The same with a bar on the terminal for what takes over a second, unless `quiet`.
+/// Opens INPUT and hands out all its volumes over time, one after another, the only one where it is no
+/// series: the header is read once. `visit` may take the volume's data over. What `choice` says of time
+/// is not looked at. Throws as open_input(), and what `visit` throws.
+void for_each_volume(const std::string& spec,
+  const std::function<void(double)>& progress,
+  const InputChoice& choice,
+  const std::function<void(Input&)>& visit);
+
+/// The same as open_input() with a bar on the terminal for what takes over a second, unless `quiet`.
 Input open_input_with_bar(const std::string& spec, const InputChoice& choice, bool quiet);
 
 /// A sample: what `sample:NAME` makes. Each kind of `brume generate` is one (generators.h).

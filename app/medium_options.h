@@ -4,6 +4,7 @@
 #include "vtkSmartPointer.h"
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -142,8 +143,9 @@ vtkSmartPointer<vtkLightCollection> make_lights(const MediumOptions& options);
 /// where the options ask for none and the extinction is the same in R, G and B.
 vtkSmartPointer<vtkBrumeMedium> make_medium(const MediumOptions& options, const Triple& extinction);
 
-/// Sky, ground and environment. Throws Failure for an environment that cannot be read.
-vtkSmartPointer<vtkBrumeSky> make_sky(const MediumOptions& options);
+/// Sky, ground and environment, of which the last may take `max_memory` bytes (0: three quarters of the
+/// machine's). Throws Failure for an environment that cannot be read.
+vtkSmartPointer<vtkBrumeSky> make_sky(const MediumOptions& options, std::int64_t max_memory);
 
 /// The fog, lit by this sky too; null for none.
 vtkSmartPointer<vtkBrumeFog> make_fog(const MediumOptions& options, vtkBrumeSky* sky);

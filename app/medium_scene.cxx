@@ -182,7 +182,7 @@ vtkSmartPointer<vtkBrumeMedium> make_medium(const MediumOptions& o, const Triple
   return medium;
 }
 
-vtkSmartPointer<vtkBrumeSky> make_sky(const MediumOptions& o)
+vtkSmartPointer<vtkBrumeSky> make_sky(const MediumOptions& o, std::int64_t max_memory)
 {
   if (!o.has_medium() && !o.has_fog())
   {
@@ -199,6 +199,7 @@ vtkSmartPointer<vtkBrumeSky> make_sky(const MediumOptions& o)
     ear->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
     reader->AddObserver(vtkCommand::ErrorEvent, ear);
     reader->SetFileName(o.environment.c_str());
+    reader->SetMaximumMemory(max_memory);
     reader->Update();
     if (*reader->GetErrorMessage())
     {

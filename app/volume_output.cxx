@@ -5,6 +5,8 @@
 #include "option_checks.h"
 #include "output_check.h"
 
+#include "file_series.h"
+
 #include "vtkBrumeImageWriter.h"
 #include "vtkBrumeOpenVDBWriter.h"
 #include "vtkBrumeSparseVolume.h"
@@ -20,7 +22,8 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdio>
+#include <filesystem>
+#include <set>
 
 namespace brume::app
 {
@@ -107,7 +110,11 @@ bool holds_sparse(const std::string& path)
   return ends_with(path, ".vdb");
 }
 
-std::string numbered_path(const std::string& path, int number)
+namespace
+{
+
+/// Where the ending begins.
+std::size_t ending_of(const std::string& path)
 {
   const std::size_t slash = path.rfind('/');
   const std::size_t from = slash == std::string::npos ? 0 : slash + 1;
@@ -120,9 +127,46 @@ std::string numbered_path(const std::string& path, int number)
   {
     dot = path.size();
   }
-  char digits[16];
-  std::snprintf(digits, sizeof(digits), ".%04d", number);
-  return path.substr(0, dot) + digits + path.substr(dot);
+  return dot;
+}
+
+std::string before_ending(const std::string& path, const char* text)
+{
+  const std::size_t dot = ending_of(path);
+  return path.substr(0, dot) + text + path.substr(dot);
+}
+
+}
+
+bool names_a_series(const std::string& path)
+{
+  return io::has_number_mark(path);
+}
+
+std::string marked_path(const std::string& path)
+{
+  return io::has_number_mark(path) ? path : before_ending(path, "_%04d");
+}
+
+std::string read_as(const std::string& path)
+{
+  return io::has_number_mark(path) ? path : before_ending(path, ".%04d");
+}
+
+std::string numbered_path(const std::string& path, std::int64_t number)
+{
+  return io::numbered_name(read_as(path), number);
+}
+
+void check_interrupted_series(const std::string& path, std::size_t done, std::size_t count)
+{
+  if (done > 0 && InterruptionWatch::requested())
+  {
+    throw Failure(path,
+      "interrupted: " + std::to_string(done) + " of " + std::to_string(count) +
+        " files are written",
+      "run it again to the end");
+  }
 }
 
 std::string volume_endings()
@@ -213,7 +257,38 @@ void check_volume_output(const VolumeOutput& output, const std::string& input)
   {
     refuse("--background-tolerance", level_set);
   }
-  check_output(output.path, input);
+  check_output(names_a_series(output.path) ? numbered_path(output.path, 0) : output.path, input);
+}
+
+void check_apart(const std::vector<std::string>& outputs, const std::string& input)
+{
+  const auto place = [](const std::string& path)
+  {
+    std::error_code error;
+    return std::filesystem::weakly_canonical(path, error).string();
+  };
+  std::set<std::string> inputs;
+  if (io::is_file_pattern(input))
+  {
+    for (const io::NumberedFile& file : io::numbered_files(input))
+    {
+      inputs.insert(place(file.path));
+    }
+  }
+  else
+  {
+    inputs.insert(place(input));
+  }
+  for (const std::string& output : outputs)
+  {
+    if (inputs.count(place(output)) > 0)
+    {
+      throw Failure(output,
+        "it is one of the input's files, which would be lost",
+        "name another file",
+        BadCall);
+    }
+  }
 }
 
 std::vector<std::string> write_volume(const Input& volume,

@@ -302,7 +302,7 @@ VolumeScene make_volume_scene(const SceneOptions& options)
   {
     scene.meshes.push_back(open_mesh(mesh));
   }
-  scene.sky = make_sky(options.medium);
+  scene.sky = make_sky(options.medium, options.choice.max_memory);
   if (options.input.empty())
   {
     scene.lights = make_lights(options.medium);

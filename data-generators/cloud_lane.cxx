@@ -18,11 +18,6 @@ float layer_cloud_value(const LayerCloud& cloud, const glm::dvec3& place, double
     cloud, { place.x, place.y, place.z }, one_lane::drift_of(cloud.options.wind, time));
 }
 
-float layer_cover(const LayerCloud& cloud, double x, double y)
-{
-  return one_lane::cover_noise(cloud, x, y);
-}
-
 FieldRange HeapCloud::range_in(const Box& box) const
 {
   constexpr FieldRange empty{ 0.0f, 0.0f };

@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <string>
+#include <tbb/parallel_for.h>
 #include <utility>
 #include <vector>
 
@@ -26,16 +28,28 @@ void require(bool holds, const char* what)
   }
 }
 
+/// The largest features of a layer's cover: cells are some times wider than the layer is thick,
+/// patches wider still.
+double cover_size(const CloudOptions& o)
+{
+  const double by_height = o.kind == CloudKind::Stratocumulus ? 1.6
+                           : o.kind == CloudKind::Cirrus      ? 1.4
+                                                              : 5.0;
+  return by_height * (o.top - o.base);
+}
+
 /// A pile of puffs that is not a single cumulus.
 class PiledCloud : public Field
 {
 public:
-  PiledCloud(const CloudOptions& o, const std::vector<Puff>& puffs)
+  explicit PiledCloud(const CloudOptions& o)
   {
+    m_cloud.border_fade = cloud_side_fade(o) / o.width;
+    m_cloud.empty_border = m_cloud.border_fade / 3.0;
     m_cloud.seed = o.seed;
     m_cloud.width = o.width;
     m_cloud.base = o.base / o.width;
-    m_cloud.height = (o.top + 0.1 * (o.top - o.base)) / o.width + HeapCloud::border_fade;
+    m_cloud.height = (o.top + 0.1 * (o.top - o.base)) / o.width + m_cloud.border_fade;
     m_cloud.detail_size = o.detail_size;
     m_cloud.octaves = o.octaves;
     m_cloud.offset = o.offset;
@@ -48,8 +62,11 @@ public:
     {
       m_cloud.ice = (o.base + 0.62 * (o.top - o.base)) / o.width;
     }
-    m_heap = std::make_unique<PuffHeap>(
-      puffs, Box{ { -0.5, -0.5, 0.0 }, { 0.5, 0.5, m_cloud.height } }, o.warp_amplitude / o.width);
+    m_heap = std::make_unique<PuffHeap>(o.kind == CloudKind::CumulusField
+                                          ? pile_cumulus_field(o, m_cloud.border_fade)
+                                          : pile_cumulonimbus(o),
+      Box{ { -0.5, -0.5, 0.0 }, { 0.5, 0.5, m_cloud.height } },
+      o.warp_amplitude / o.width);
     m_cloud.heap = m_heap.get();
   }
 
@@ -87,10 +104,9 @@ public:
       m_cloud.along_x = o.wind.x / speed;
       m_cloud.along_y = o.wind.y / speed;
     }
-    // Cells are some times wider than the layer is thick; patches are wider still.
-    m_cloud.cover_size = o.kind == CloudKind::Stratocumulus ? 1.6 * m_cloud.height
-                         : o.kind == CloudKind::Cirrus      ? 1.4 * m_cloud.height
-                                                            : 5.0 * m_cloud.height;
+    m_cloud.cover_size = cover_size(o);
+    m_cloud.border_fade = cloud_side_fade(o) / (0.5 * o.width);
+    m_cloud.empty_border = std::min(0.02, m_cloud.border_fade / 3.0);
     this->settle_coverage();
   }
 
@@ -112,7 +128,7 @@ public:
   FieldRange range_in(const Box& box, double) const override
   {
     const Box all = this->bounds();
-    const double border = 0.49 * LayerCloud::empty_border * m_cloud.options.width;
+    const double border = 0.49 * m_cloud.empty_border * m_cloud.options.width;
     const double room = 0.49 * LayerCloud::empty_above * m_cloud.height;
     const bool outside = box.upper.x < all.lower.x + border || box.lower.x > all.upper.x - border ||
                          box.upper.y < all.lower.y + border || box.lower.y > all.upper.y - border ||
@@ -121,33 +137,62 @@ public:
   }
 
 private:
-  /// The threshold is a quantile of the cover's values over a wide part of the layer.
+  /// The threshold of the cover at which as many columns of the box, away from its sides, meet
+  /// cloud as are asked for: by bisection, for more of them do the lower it is.
   void settle_coverage()
   {
-    std::vector<float> covers;
-    constexpr int side = 64;
-    for (int n = 0; n < side * side; ++n)
+    const double coverage = m_cloud.options.coverage;
+    double low = -2.5, high = 2.5; // beyond what cover noise and its fraying come to
+    if (coverage == 0.0)
     {
-      covers.push_back(layer_cover(m_cloud,
-        (n % side + 0.31) * 0.83 * m_cloud.cover_size,
-        (n / side + 0.17) * 0.83 * m_cloud.cover_size));
+      m_cloud.cover_threshold = 10.0;
+      return;
     }
-    std::sort(covers.begin(), covers.end());
-    const double at = (1.0 - m_cloud.options.coverage) * (side * side - 1);
-    // What the noise takes off the edges, at its mean of 1/2, by the kernel's slopes.
-    const CloudOptions& o = m_cloud.options;
-    const double slope = o.kind == CloudKind::Stratocumulus ? 6.0 : 2.5;
-    const double frayed =
-      o.kind == CloudKind::Cirrus ? 0.0 : std::min(0.25 / (0.4 + o.offset), 1.0) / slope;
-    m_cloud.cover_threshold = covers[static_cast<std::size_t>(at)] - frayed;
-    if (m_cloud.options.coverage == 1.0)
+    for (int step = 0; step < 11; ++step)
+    {
+      m_cloud.cover_threshold = 0.5 * (low + high);
+      (this->covered() > coverage ? low : high) = m_cloud.cover_threshold;
+    }
+    m_cloud.cover_threshold = 0.5 * (low + high);
+    if (coverage == 1.0)
     {
       m_cloud.cover_threshold -= 0.3; // closed: the thinnest place is well within
     }
-    else if (m_cloud.options.coverage == 0.0)
-    {
-      m_cloud.cover_threshold += 10.0;
-    }
+  }
+
+  /// The fraction of columns that meet cloud now. The columns stand in rows, each shifted by
+  /// another part of a step along both axes, so that they do not beat with the noise's lattice.
+  double covered() const
+  {
+    constexpr int side = 48;
+    const CloudOptions& o = m_cloud.options;
+    const int heights = o.kind == CloudKind::Cirrus ? 32 : 12; // whose streaks are thin
+    const double width = o.width - 2.0 * cloud_side_fade(o), step = width / side;
+    std::vector<int> counts(side, 0);
+    tbb::parallel_for(0,
+      side,
+      [&](int j)
+      {
+        const auto shift = [j](double by) { return j * by - std::floor(j * by); };
+        PlaceBlock row;
+        row.origin = { -0.5 * width + shift(0.6180339887) * step,
+          -0.5 * width + (j + shift(0.7548776662)) * step,
+          o.base + 0.5 * m_cloud.height / heights };
+        row.spacing = { step, 1.0, m_cloud.height / heights };
+        row.count = { side, 1, heights };
+        std::vector<float> values(row.size());
+        layer_cloud_packets(m_cloud, row, 0.0, values.data());
+        for (int i = 0; i < side; ++i)
+        {
+          bool any = false;
+          for (int k = 0; k < heights; ++k)
+          {
+            any = any || values[k * side + i] > CloudOptions::thinnest;
+          }
+          counts[j] += any;
+        }
+      });
+    return std::accumulate(counts.begin(), counts.end(), 0) / double(side * side);
   }
 
   LayerCloud m_cloud;
@@ -224,6 +269,20 @@ CloudOptions cloud_defaults(CloudKind kind)
   return o;
 }
 
+double cloud_side_fade(const CloudOptions& o)
+{
+  switch (o.kind)
+  {
+    case CloudKind::Cumulus:
+    case CloudKind::Cumulonimbus:
+      return HeapCloud::usual_fade * o.width;
+    case CloudKind::CumulusField:
+      return std::min(HeapCloud::usual_fade * o.width, 0.6 * (o.top - o.base));
+    default:
+      return std::min(0.2 * o.width, cover_size(o));
+  }
+}
+
 std::unique_ptr<Field> make_cloud(const CloudOptions& options)
 {
   CloudOptions o = options;
@@ -261,11 +320,13 @@ std::unique_ptr<Field> make_cloud(const CloudOptions& options)
     }
     case CloudKind::CumulusField:
     case CloudKind::Cumulonimbus:
-      require(o.base >= 0.03 * o.width, "the base must be at 0.03 width or higher");
+      require(o.base >= 0.5 * cloud_side_fade(o),
+        "the base must be at 0.03 width or higher; of a field 0.3 of its clouds' height will do");
       require(o.top < 20.0 * o.width, "the top must be below 20 widths");
+      require(o.kind != CloudKind::CumulusField || o.width <= 100.0 * (o.top - o.base),
+        "a field must be at most 100 of its clouds' heights wide");
       o.warp_amplitude = std::clamp(o.warp_amplitude, 0.0, 0.06 * o.width);
-      return std::make_unique<PiledCloud>(
-        o, o.kind == CloudKind::CumulusField ? pile_cumulus_field(o) : pile_cumulonimbus(o));
+      return std::make_unique<PiledCloud>(o);
     case CloudKind::Stratus:
     case CloudKind::Stratocumulus:
     case CloudKind::Cirrus:

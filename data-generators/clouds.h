@@ -35,14 +35,18 @@ struct CloudOptions
   /// gives (0.08 width, and 0.44 width above the base). What stands highest ends near the top,
   /// within some tenths of the cloud's height; layers lie strictly between. Heaps (cumulus, cumulus
   /// field, cumulonimbus) have a box from 0 to a little above the top, and need a base of
-  /// 0.03 width or more. A layer's box reaches a tenth of its height below its base and above its
-  /// top.
+  /// half their cloud_side_fade() or more. A layer's box reaches a tenth of its height below its
+  /// base and above its top.
   double base = 0.0;
   double top = 0.0;
 
-  /// Fraction of the ground under cloud, for cumulus fields and layers, away from the box's sides,
-  /// where clouds get fewer. 0 … 1. The noise that frays the edges takes a little off.
+  /// Fraction of the ground under cloud, for cumulus fields and layers, 0 … 1: of the vertical
+  /// lines that meet a density above `thinnest` somewhere, away from the box's sides (farther than
+  /// cloud_side_fade()), where clouds get fewer. It is met within 0.05 (of a field with
+  /// an offset of 0: 0.06) at time 0, in boxes from one
+  /// cloud to 64 clouds wide; later on a narrow layer has what the wind brings.
   double coverage = 0.5;
+  static constexpr double thinnest = 0.01;
 
   /// Size of the largest features of the noise that frays it; for cirrus the distance of its
   /// streaks. The finest are 2^(octaves - 1) times smaller. Above 0; octaves 1 … 8.
@@ -71,6 +75,11 @@ struct CloudOptions
 /// latitudes (World Meteorological Organization, International Cloud Atlas, 2017).
 CloudOptions cloud_defaults(CloudKind kind);
 
+/// How far from the sides of the box clouds of a kind are whole, metres: nearer they get fewer or
+/// fade away. 0.06 width for heaps, of a field 0.6 of its clouds' height at most; for layers 0.2
+/// width, and the size of their largest patches at most.
+double cloud_side_fade(const CloudOptions& options);
+
 /// A cloud: its density, in [0, 1] without a unit, exactly 0 outside its box and at its faces.
 /// Multiply by an extinction per metre: some 0.02 to 0.1 for clouds of droplets, 0.0005 to 0.003
 /// for cirrus.
@@ -84,7 +93,7 @@ CloudOptions cloud_defaults(CloudKind kind);
 /// the same noise n to fray them, with w the warped place moved back by the wind:
 ///   f       = held(k (c(w) - threshold)) profile(h, c(w))
 ///   density = held(crispness (f (0.8 n(w) + offset) - 1/4))
-/// where the threshold is the quantile of c of which `coverage` is above. c is fBm for stratus and
+/// where the threshold is the one at which `coverage` is met. c is fBm for stratus and
 /// cirrus, with cirrus drawn out 3:1 along the wind, and cells (1 - Worley) grouped by fBm for
 /// stratocumulus, whose profile is a dome the higher the larger c is. Cirrus has in place of n the
 /// ridges of fBm drawn out 9:1, and its places lag by 2.5 (top - base) (1 - h)^2 upwind: ice that

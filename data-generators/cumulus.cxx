@@ -63,14 +63,14 @@ std::vector<Puff> pile_cumulus(std::uint32_t seed)
     }
   }
   // What would reach the border is drawn in, so that the border's fade has little to cut.
-  const double room = 0.5 - HeapCloud::border_fade;
+  const double room = 0.5 - HeapCloud::usual_fade;
   for (Puff& p : puffs)
   {
     const double radius = std::min(p.radii.x, room);
     p.radii = glm::dvec3(radius);
     p.centre.x = std::clamp(p.centre.x, radius - room, room - radius);
     p.centre.y = std::clamp(p.centre.y, radius - room, room - radius);
-    p.centre.z = std::min(p.centre.z, box_height - HeapCloud::border_fade - radius);
+    p.centre.z = std::min(p.centre.z, box_height - HeapCloud::usual_fade - radius);
   }
   return puffs;
 }

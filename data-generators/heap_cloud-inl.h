@@ -20,16 +20,17 @@ public:
     : m_heap(heap)
   {
     const Real place[3] = { x, y, z };
+    const glm::ivec3& cells = heap.cells();
     Real cell[3];
     for (int a = 0; a < 3; ++a)
     {
       cell[a] = floor_of(least(most((place[a] - real(static_cast<float>(heap.lower()[a]))) *
                                       real(static_cast<float>(heap.cells_by_length()[a])),
                                  real(0.0f)),
-        real(PuffHeap::cells - 1.0f)));
+        real(static_cast<float>(cells[a] - 1))));
     }
-    const Real row = real(static_cast<float>(PuffHeap::cells));
-    m_cells = to_bits((cell[2] * row + cell[1]) * row + cell[0]);
+    const Real row = real(static_cast<float>(cells.x)), layer = real(static_cast<float>(cells.y));
+    m_cells = to_bits((cell[2] * layer + cell[1]) * row + cell[0]); // below 2^24: exact
     std::uint32_t all[lane_count];
     store(m_cells, all);
     for (int lane = 0; lane < lane_count; ++lane)
@@ -50,11 +51,12 @@ public:
     Real result = zero;
     for (int c = 0; c < m_count; ++c)
     {
-      const float* p = m_heap.puffs() + m_heap.begin()[m_distinct[c]];
-      const float* end = m_heap.puffs() + m_heap.begin()[m_distinct[c] + 1];
+      const std::uint32_t* at = m_heap.lists() + m_heap.begin()[m_distinct[c]];
+      const std::uint32_t* end = m_heap.lists() + m_heap.begin()[m_distinct[c] + 1];
       Real rest = one;
-      for (; p != end; p += 6)
+      for (; at != end; ++at)
       {
+        const float* p = m_heap.puffs() + *at;
         const Real dx = (x - real(p[0])) * real(p[3]);
         const Real dy = (y - real(p[1])) * real(p[4]);
         const Real dz = (z - real(p[2])) * real(p[5]);
@@ -86,8 +88,8 @@ BRUME_LANES_INLINE Real cloud_noise(const Place& at, std::uint32_t seed, int oct
     const Cell cell = find_cell(scaled(at, glm::dvec3(frequency)), glm::dvec3(0.0));
     if (octave < 4)
     {
-      const Real billow =
-        select(cell.valid, real(1.0f) - worley_in(cell, substream(billow_seed, stream)), real(0.0f));
+      const Real billow = select(
+        cell.valid, real(1.0f) - worley_in(cell, substream(billow_seed, stream)), real(0.0f));
       billows = billows + wide(amplitude) * widen(billow);
       billow_weight += amplitude;
     }
@@ -112,7 +114,7 @@ BRUME_LANES_INLINE Real heap_cloud(const HeapCloud& c, const Place& p, const glm
   // Distance to the nearest face, and the height over the base: nothing outside, nothing below.
   const Real sx = half - magnitude(x), sy = half - magnitude(y);
   const Real sz = least(z, real(static_cast<float>(c.height)) - z);
-  const Real border = real(static_cast<float>(HeapCloud::empty_border));
+  const Real border = real(static_cast<float>(c.empty_border));
   const float lowest = static_cast<float>(c.base - c.below_base);
   const Yes within = both(both(border < sx, border < sy), both(border < sz, real(lowest) < z));
   if (!any(within))
@@ -163,8 +165,8 @@ BRUME_LANES_INLINE Real heap_cloud(const HeapCloud& c, const Place& p, const glm
                 real(static_cast<float>(1.0 / (1.5 * c.below_base)))));
   const Real inside = least(least(sx, sy), sz);
   const Real fade = smooth(straight(inside,
-    static_cast<float>(HeapCloud::empty_border),
-    static_cast<float>(1.0 / (HeapCloud::border_fade - HeapCloud::empty_border))));
+    static_cast<float>(c.empty_border),
+    static_cast<float>(1.0 / (c.border_fade - c.empty_border))));
   return select(filled, body * base * fade, zero);
 }
 

@@ -31,9 +31,10 @@ struct HeapCloud
   /// Height from which the cloud is ice, in widths: fibrous, softer, smoother. Above the box: none.
   double ice = 2.0;
 
-  // Of the recipe (cumulus.h).
-  static constexpr double empty_border = 0.02; ///< no density nearer to a face than this
-  static constexpr double border_fade = 0.06;  ///< full density from here on
+  // Of the recipe (cumulus.h), in widths.
+  static constexpr double usual_fade = 0.06;
+  double border_fade = usual_fade;        ///< full density this far from the faces
+  double empty_border = usual_fade / 3.0; ///< no density nearer to a face than this
   static constexpr double threshold = 0.25;
   /// The heap below which even the strongest noise leaves nothing.
   double needed() const { return threshold / (0.8 + offset); }

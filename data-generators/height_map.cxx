@@ -1,5 +1,7 @@
+#define BRUME_ONE_LANE
 #include "data-generators/height_map.h"
 
+#include "data-generators/height_map-inl.h"
 #include "data-generators/noise.h"
 #include "data-generators/random.h"
 #include "data-generators/shaping.h"
@@ -40,16 +42,7 @@ HeightMap HeightMap::from(const std::function<double(double x, double y)>& groun
 
 float HeightMap::at(double x, double y) const
 {
-  const auto along = [](double at, int count) // what is no number counts as the first place
-  { return at > 0.0 ? std::min(at, count - 1.0) : 0.0; };
-  const double u = along((x - origin.x) / spacing.x, dimensions.x);
-  const double v = along((y - origin.y) / spacing.y, dimensions.y);
-  const int i = std::min(static_cast<int>(u), dimensions.x - 2);
-  const int j = std::min(static_cast<int>(v), dimensions.y - 2);
-  const float* row = heights.data() + static_cast<std::size_t>(j) * dimensions.x + i;
-  const double near = mix(row[0], row[1], u - i);
-  const double far = mix(row[dimensions.x], row[dimensions.x + 1], u - i);
-  return static_cast<float>(mix(near, far, v - j));
+  return one_lane::ground_at(*this, x, y);
 }
 
 double HeightMap::quantile(double fraction) const

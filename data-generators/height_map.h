@@ -25,6 +25,8 @@ struct HeightMap
     double width,
     int size = 256);
 
+  /// Within a square in single precision; the fog of every SIMD target stands on the same bits. What
+  /// is no number counts as the first place.
   float at(double x, double y) const;
 
   /// The height below which this fraction of the ground lies; fraction in [0, 1].

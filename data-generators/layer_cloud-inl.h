@@ -45,7 +45,7 @@ BRUME_LANES_INLINE Real layer_cloud(const LayerCloud& c, const Place& p, const g
   const Real h = narrow((p.z - wide(o.base)) * wide(1.0 / c.height));
   const Wide by_half = wide(2.0 / o.width);
   const Real side = one - most(magnitude(narrow(p.x * by_half)), magnitude(narrow(p.y * by_half)));
-  const Yes within = both(real(static_cast<float>(LayerCloud::empty_border)) < side,
+  const Yes within = both(real(static_cast<float>(c.empty_border)) < side,
     both(real(static_cast<float>(-0.5 * LayerCloud::empty_above)) < h,
       both(h < real(static_cast<float>(1.0 + 0.5 * LayerCloud::empty_above)), is_valid(p))));
   if (!any(within))
@@ -67,8 +67,8 @@ BRUME_LANES_INLINE Real layer_cloud(const LayerCloud& c, const Place& p, const g
 
   // Toward the box's sides the clouds get fewer and thinner.
   const Real fade = smooth(straight(side,
-    static_cast<float>(LayerCloud::empty_border),
-    static_cast<float>(1.0 / (LayerCloud::border_fade - LayerCloud::empty_border))));
+    static_cast<float>(c.empty_border),
+    static_cast<float>(1.0 / (c.border_fade - c.empty_border))));
   const Real cover =
     cover_noise(c, u, v) - real(static_cast<float>(c.cover_threshold)) - real(0.6f) * (one - fade);
   const Yes covered = both(within, zero < cover);

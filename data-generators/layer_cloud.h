@@ -16,8 +16,10 @@ struct LayerCloud
   double cover_size = 1.0;      ///< of the patches or cells, metres
   double cover_threshold = 0.0; ///< of the cover noise: there is cloud above it
 
-  static constexpr double empty_border = 0.02; ///< of half the width, at the sides
-  static constexpr double border_fade = 0.4;
+  /// Of half the width, from the sides: no cloud nearer than the first, all of it from the second
+  /// on.
+  double empty_border = 0.02;
+  double border_fade = 0.4;
   static constexpr double empty_above = 0.1; ///< of the height: the box's room above and below
 };
 
@@ -27,8 +29,5 @@ void layer_cloud_packets(const LayerCloud& cloud,
   const PlaceBlock& places,
   double time,
   float* out);
-
-/// The noise that says where there is cloud, at a place of the layer (metres, level).
-float layer_cover(const LayerCloud& cloud, double x, double y);
 
 }

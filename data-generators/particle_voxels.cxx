@@ -287,7 +287,8 @@ ParticleField::ParticleField(const ParticleCloudOptions& options,
 
 ParticleField::~ParticleField() = default;
 
-std::shared_ptr<const ParticleField::Moment> ParticleField::moment(double time) const
+std::shared_ptr<const ParticleField::Moment> ParticleField::moment(double time,
+  const Progress& progress) const
 {
   const std::lock_guard<std::mutex> lock(m_mutex);
   if (m_moment && m_moment->time == time)
@@ -299,7 +300,17 @@ std::shared_ptr<const ParticleField::Moment> ParticleField::moment(double time) 
   auto kept = std::make_shared<std::vector<Particle>>();
   // In an arena of its own: a thread that waits here must not take up work that waits for the lock.
   std::vector<Particle> all;
-  tbb::this_task_arena::isolate([&] { all = m_cloud.particles(time); });
+  bool stopped = false;
+  const Progress told = [&](double done)
+  {
+    stopped = progress && !progress(done);
+    return !stopped;
+  };
+  tbb::this_task_arena::isolate([&] { all = m_cloud.particles(time, told); });
+  if (stopped)
+  {
+    return nullptr;
+  }
   for (const Particle& p : all)
   {
     const Particle wide = widened(p, m_least_radius);
@@ -345,6 +356,11 @@ std::shared_ptr<const ParticleField::Moment> ParticleField::moment(double time) 
   }
   m_moment = moment;
   return m_moment;
+}
+
+bool ParticleField::prepare(double time, const Progress& progress) const
+{
+  return this->moment(time, progress) != nullptr;
 }
 
 std::shared_ptr<const std::vector<Particle>> ParticleField::particles(double time) const

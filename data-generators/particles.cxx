@@ -97,7 +97,7 @@ ParticleCloud::ParticleCloud(const ParticleCloudOptions& options)
     "a moment would take more than 10^10 steps of particles: shorten the life or lower the rate");
 }
 
-std::vector<Particle> ParticleCloud::particles(double time) const
+std::vector<Particle> ParticleCloud::particles(double time, const Progress& progress) const
 {
   const ParticleCloudOptions& o = m_options;
   std::vector<Particle> all;
@@ -105,6 +105,12 @@ std::vector<Particle> ParticleCloud::particles(double time) const
   {
     return all;
   }
+  std::size_t count = 0, done = 0;
+  for (const Emitter& emitter : o.emitters)
+  {
+    count += brood(emitter, o.life, time).count;
+  }
+  const std::size_t batch = std::max<std::size_t>(count / 100, 1024);
   for (std::size_t e = 0; e < o.emitters.size(); ++e)
   {
     const Emitter& emitter = o.emitters[e];
@@ -157,14 +163,23 @@ std::vector<Particle> ParticleCloud::particles(double time) const
         smooth_ramp(age, 0.0, 0.1 * life) * (1.0 - smooth_ramp(age, 0.5 * life, life));
       born[index] = { x, grown, o.density * fade * thinned * thinned * thinned };
     };
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, born.size(), 64),
-      [&](const tbb::blocked_range<std::size_t>& range)
-      {
-        for (std::size_t index = range.begin(); index != range.end(); ++index)
+    for (std::size_t begin = 0; begin < born.size(); begin += batch)
+    {
+      const std::size_t end = std::min(begin + batch, born.size());
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, 64),
+        [&](const tbb::blocked_range<std::size_t>& range)
         {
-          move(index);
-        }
-      });
+          for (std::size_t index = range.begin(); index != range.end(); ++index)
+          {
+            move(index);
+          }
+        });
+      done += end - begin;
+      if (progress && !progress(static_cast<double>(done) / count))
+      {
+        return {};
+      }
+    }
     for (const Particle& p : born)
     {
       if (p.radius > 0.0 && p.peak > 0.0)

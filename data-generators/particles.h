@@ -79,8 +79,8 @@ public:
   explicit ParticleCloud(const ParticleCloudOptions& options = {});
 
   /// Those alive at a time, ordered by emitter and number. Runs on all threads that TBB gives. A
-  /// time that is not finite gives none.
-  std::vector<Particle> particles(double time) const;
+  /// time that is not finite gives none, and so does a wish of `progress` to stop.
+  std::vector<Particle> particles(double time, const Progress& progress = {}) const;
 
   const ParticleCloudOptions& options() const { return m_options; }
 
@@ -125,12 +125,16 @@ public:
   /// 0 where no particle reaches.
   FieldRange range_in(const Box& box, double time) const override;
 
+  /// Moves the particles to a moment, on all threads that TBB gives and with progress. Who asks for
+  /// values without it waits for one thread to do that. False where `progress` asked to stop.
+  bool prepare(double time, const Progress& progress = {}) const;
+
   /// The particles of a moment, widened, that reach into the box.
   std::shared_ptr<const std::vector<Particle>> particles(double time) const;
 
 private:
   struct Moment;
-  std::shared_ptr<const Moment> moment(double time) const;
+  std::shared_ptr<const Moment> moment(double time, const Progress& progress = {}) const;
 
   ParticleCloud m_cloud;
   Box m_box;

@@ -16,8 +16,8 @@ void add_buds(std::vector<Puff>& puffs,
   int generations,
   RandomSequence& random);
 
-/// Puffs in widths of the box.
-std::vector<Puff> pile_cumulus_field(const CloudOptions& options);
+/// Puffs in widths of the box, of a field none nearer to its sides than `border`.
+std::vector<Puff> pile_cumulus_field(const CloudOptions& options, double border);
 std::vector<Puff> pile_cumulonimbus(const CloudOptions& options);
 
 }

@@ -23,6 +23,8 @@ constexpr double meander_size = 0.6;   ///< of the bends of the axis
 constexpr double meander_reach = 0.12; ///< of the axis, a unit of height
 constexpr double eddy_size = 0.22;
 constexpr double detail_size = 0.11;
+constexpr double largest_warp = 0.1; ///< of the turbulence, once it is stirred
+constexpr double stirred_from = 0.5; ///< from this height on it is
 constexpr double empty_border = 0.02;
 constexpr double border_fade = 0.08;
 
@@ -41,7 +43,7 @@ Plume::Plume(const PlumeOptions& options)
   require(options.width > 0.0 && std::isfinite(options.width), "the width must be above 0");
   require(std::isfinite(options.rise), "the rise must be finite");
   require(options.air_temperature > 0.0 && options.air_temperature <= options.source_temperature &&
-      std::isfinite(options.source_temperature),
+            std::isfinite(options.source_temperature),
     "the air's temperature must be above 0 and not above the source's");
 }
 
@@ -54,6 +56,42 @@ Box Plume::bounds() const
 float Plume::value(const glm::dvec3& place, double time) const
 {
   return this->at(place, time).density;
+}
+
+FieldRange Plume::range_in(const Box& box, double) const
+{
+  const Box p{ box.lower / m_options.width, box.upper / m_options.width };
+  const FieldRange air{ 0.0f, 0.0f };
+  // The nearest to the axis that a place of the box is, level, before the warp and the bends move
+  // it; both grow with the height, and so does the radius.
+  double square = 0.0;
+  const double top = std::clamp(p.upper.z, 0.0, box_height);
+  const double moved =
+    largest_warp * smooth_ramp(top, 0.0, stirred_from) + meander_reach * top + 1e-6;
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    if (p.lower[axis] > 0.5 - empty_border || p.upper[axis] < empty_border - 0.5)
+    {
+      return air;
+    }
+    const double from_axis = std::max({ p.lower[axis], -p.upper[axis], 0.0 });
+    const double nearest = std::max(from_axis - moved, 0.0);
+    square += nearest * nearest;
+  }
+  const double radius = source_radius + widening * top;
+  if (p.upper.z < empty_border || p.lower.z > box_height - empty_border || square > radius * radius)
+  {
+    return air;
+  }
+  return { 0.0f, 1.0f };
+}
+
+FieldRange PlumeTemperature::range_in(const Box& box, double time) const
+{
+  const PlumeOptions& o = m_plume->options();
+  const auto air = static_cast<float>(o.air_temperature);
+  return { air,
+    m_plume->range_in(box, time).upper == 0.0f ? air : static_cast<float>(o.source_temperature) };
 }
 
 Plume::State Plume::at(const glm::dvec3& place, double time) const
@@ -70,9 +108,9 @@ Plume::State Plume::at(const glm::dvec3& place, double time) const
   const glm::dvec3 drift(0.0, 0.0, std::isfinite(time) ? o.rise * time / o.width : 0.0);
 
   // The turbulence grows from nothing at the source.
-  const double stirred = smooth_ramp(p.z, 0.0, 0.5);
+  const double stirred = smooth_ramp(p.z, 0.0, stirred_from);
   const glm::dvec3 warped =
-    warp(p - drift, eddy_size, 0.1 * stirred, substream(o.seed, 11)) + drift;
+    warp(p - drift, eddy_size, largest_warp * stirred, substream(o.seed, 11)) + drift;
 
   const glm::dvec3 bend(0.0, 0.0, (p.z - drift.z) / meander_size);
   const double reach = meander_reach * p.z;

@@ -44,14 +44,18 @@ public:
   /// cell was found, before it asks.
   PuffHeap(const std::vector<Puff>& puffs, const Box& box, double reach);
 
-  static constexpr int cells = 32; ///< along each axis
+  /// Along each axis. 32, and level more the flatter the box, up to 512: a cell's puffs are few,
+  /// however wide a field. Below 2^24 in all.
+  const glm::ivec3& cells() const { return m_cells; }
 
   /// An upper bound of the heap at all places in a box, each moved by the reach or less.
   double most_in(const Box& box) const;
 
-  // For the kernels: cell (i, j, k) holds the numbers from begin()[c] to begin()[c + 1],
-  // c = (k * cells + j) * cells + i, of puffs(), six to each: the centre and one over the radii.
+  // For the kernels: cell (i, j, k) has the puffs that begin at puffs() + lists()[n], n from
+  // begin()[c] to begin()[c + 1], c = (k * cells().y + j) * cells().x + i: six numbers each, the
+  // centre and one over the radii.
   const float* puffs() const { return m_puffs.data(); }
+  const std::uint32_t* lists() const { return m_lists.data(); }
   const std::uint32_t* begin() const { return m_begin.data(); }
   const glm::dvec3& lower() const { return m_box.lower; }
   /// Cells in a unit of length.
@@ -60,10 +64,16 @@ public:
 private:
   int cell_of(double x, int axis) const;
 
+  /// Calls function(c) for each cell that the puff reaches.
+  template <class Function>
+  void for_cells_of(const Puff& puff, const Function& function) const;
+
   Box m_box;
+  glm::ivec3 m_cells;
   glm::dvec3 m_scale;
   double m_reach;
   std::vector<float> m_puffs;
+  std::vector<std::uint32_t> m_lists;
   std::vector<std::uint32_t> m_begin;
 };
 

@@ -83,20 +83,27 @@ ShapeHit sphere_trace(const Shape& shape,
   return found;
 }
 
-ShapeField::ShapeField(const Shape& shape, const Box& box, Quantity quantity, double width)
+ShapeField::ShapeField(const Shape& shape,
+  const Box& box,
+  Quantity quantity,
+  double width,
+  double band)
   : m_shape(shape)
   , m_box(box)
   , m_quantity(quantity)
   , m_width(width)
+  , m_band(band)
 {
+  shapes::require(band > 0.0, "the band of a distance must be above 0");
   shapes::require(
     width >= 0.0 && std::isfinite(width), "the width of a surface must not be below 0");
 }
 
 float ShapeField::of_distance(double f) const
 {
-  return static_cast<float>(
-    m_quantity == Quantity::distance ? f : smooth_ramp(-f, -0.5 * m_width, 0.5 * m_width));
+  return static_cast<float>(m_quantity == Quantity::distance
+                              ? std::clamp(f, -m_band, m_band)
+                              : smooth_ramp(-f, -0.5 * m_width, 0.5 * m_width));
 }
 
 float ShapeField::value(const glm::dvec3& place, double) const

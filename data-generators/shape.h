@@ -32,6 +32,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -191,8 +192,14 @@ public:
     density   ///< 1 inside, 0 outside, along 3 t^2 - 2 t^3 for f from width/2 to -width/2
   };
 
-  /// `box` is what bounds() gives; `width` (not below 0; 0: a step) matters for the density alone.
-  ShapeField(const Shape& shape, const Box& box, Quantity quantity, double width);
+  /// `box` is what bounds() gives; `width` (not below 0; 0: a step) matters for the density alone,
+  /// `band` (above 0, world units) for the distance alone: beyond it distances are held to it,
+  /// negative inside.
+  ShapeField(const Shape& shape,
+    const Box& box,
+    Quantity quantity,
+    double width,
+    double band = std::numeric_limits<double>::infinity());
 
   Box bounds() const override { return m_box; }
   float value(const glm::dvec3& place, double time) const override;
@@ -206,6 +213,7 @@ private:
   Box m_box;
   Quantity m_quantity;
   double m_width;
+  double m_band;
 };
 
 }

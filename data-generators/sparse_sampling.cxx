@@ -19,7 +19,8 @@ namespace
 {
 
 constexpr int edge = SparseVoxels::brick_edge;
-constexpr int block_bricks = 8;        ///< bricks along a block, the unit of work of the first pass
+constexpr int least_block = 8;         ///< bricks along a block, the unit of work of the first pass
+constexpr long most_blocks = 1 << 18;  ///< more, and they get larger: lists of theirs are kept
 constexpr double topology_share = 0.3; ///< of the time, as progress counts it
 
 /// The wish to stop, on its way out of the second pass.
@@ -54,8 +55,18 @@ public:
   /// False where it was stopped.
   bool find_topology(SparseTopology& topology) const
   {
-    const glm::ivec3 blocks = (m_bricks + (block_bricks - 1)) / block_bricks;
-    const long count = static_cast<long>(blocks.x) * blocks.y * blocks.z;
+    int block_bricks = least_block;
+    glm::ivec3 blocks;
+    long count;
+    for (;; block_bricks *= 2)
+    {
+      blocks = (m_bricks + (block_bricks - 1)) / block_bricks;
+      count = static_cast<long>(blocks.x) * blocks.y * blocks.z;
+      if (count <= most_blocks)
+      {
+        break;
+      }
+    }
     std::vector<SparseTopology> parts(count);
     const long batch = std::max(count / 64, 16L);
     for (long begin = 0; begin < count; begin += batch)
@@ -265,7 +276,8 @@ SparseSample sample_sparse(const Field& field,
     }
     const std::size_t done = ++filled;
     if (progress && std::this_thread::get_id() == asker &&
-        done - told > topology.bricks.size() / 100)
+        done - told > topology.bricks.size() / 100 &&
+        done < topology.bricks.size()) // the end is told below
     {
       told = done;
       const double part = static_cast<double>(done) / topology.bricks.size();

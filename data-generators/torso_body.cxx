@@ -8,6 +8,7 @@
 #include "data-generators/torso_anatomy.h"
 
 #include <cmath>
+#include <iterator>
 
 namespace brume
 {
@@ -177,7 +178,7 @@ void paint_wall(PaintedVolume& torso)
 namespace
 {
 
-/// A tree of vessels that grows into a hollow, painted branch by branch.
+/// A tree of vessels that grows into a hollow: walls at once, what they hold when it is full grown.
 class Tree
 {
 public:
@@ -213,7 +214,7 @@ public:
     {
       m_torso.paint([=](const dvec3& p) { return tube(p) - wall; }, hounsfield::mucosa);
     }
-    m_torso.paint(tube, value);
+    m_lumens.emplace_back(tube, value);
     // Two branches, opposite each other across, more or less at random.
     dvec3 across(this->number() - 0.5, this->number() - 0.5, this->number() - 0.5);
     across -= glm::dot(across, along) * along;
@@ -240,11 +241,22 @@ public:
       0.7 * wall);
   }
 
+  /// Paints what the branches hold, once all their walls are there: a fork is open.
+  void fill()
+  {
+    for (const auto& [tube, value] : m_lumens)
+    {
+      m_torso.paint(tube, value);
+    }
+    m_lumens.clear();
+  }
+
 private:
   double number() { return unit_float(mix_bits(m_key ^ mix_bits(++m_count))); }
 
   PaintedVolume& m_torso;
   PaintedVolume::Distance m_hollow;
+  std::vector<std::pair<PaintedVolume::Distance, double>> m_lumens;
   std::uint32_t m_key;
   std::uint32_t m_count = 0;
   int m_branches = 0;
@@ -316,16 +328,34 @@ void paint_lungs(PaintedVolume& torso, std::uint32_t seed)
     { 0.75, -0.5, 0.3 },
     { 0.6, 0.35, -0.75 },
     { 0.55, -0.5, -0.7 } };
-  for (const dvec3& way : ways)
+  // On the left the heart is in the way: there the fourth goes out more to the side.
+  const auto along_of = [](int way, double side)
   {
-    const dvec3 along = glm::normalize(way);
-    const dvec3 back(-along.x, along.y, along.z);
-    airways.grow(right + 8.0 * along, along, 2.6, 24.0, hu::air, 1.0);
-    airways.grow(left + 8.0 * back, back, 2.6, 24.0, hu::air, 1.0);
-    const dvec3 beside(4.0, 3.0, 3.0);
-    arteries.grow(right + beside + 8.0 * along, along, 4.0, 27.0, hu::contrast_vein, 0.0);
-    arteries.grow(left - beside + 8.0 * back, back, 4.0, 27.0, hu::contrast_vein, 0.0);
+    const dvec3 along = way == 3 && side < 0.0 ? dvec3(0.75, 0.2, -0.62) : ways[way];
+    return glm::normalize(dvec3(side * along.x, along.y, along.z));
+  };
+  const int count = static_cast<int>(std::size(ways));
+  const dvec3 beside(4.0, 3.0, 3.0);
+  for (int way = 0; way < count; ++way)
+  {
+    for (const double side : { 1.0, -1.0 })
+    {
+      const dvec3 along = along_of(way, side);
+      const dvec3 hilum = (side > 0.0 ? right : left) + side * beside;
+      arteries.grow(hilum + 8.0 * along, along, 4.0, 27.0, hu::portal_phase_vein, 0.0);
+    }
   }
+  arteries.fill();
+  // After the vessels, which would else cut them where they cross; from the main bronchi's ends on.
+  for (int way = 0; way < count; ++way)
+  {
+    for (const double side : { 1.0, -1.0 })
+    {
+      const dvec3 along = along_of(way, side);
+      airways.grow(side > 0.0 ? right : left, along, 2.6, 32.0, hu::air, 1.0);
+    }
+  }
+  airways.fill();
 
   // Windpipe and main bronchi; the gullet behind.
   const auto windpipe = [](const dvec3& p)
@@ -391,12 +421,12 @@ void paint_heart(PaintedVolume& torso)
         8.0);
     },
     hu::heart_muscle);
-  torso.paint(right_atrium, hu::contrast_vein);
+  torso.paint(right_atrium, hu::portal_phase_vein);
   torso.paint([=](const dvec3& p)
     { return smooth_difference(right_chamber(p) + 4.0, left_chamber(p), 2.0); },
-    hu::contrast_vein);
-  torso.paint(left_atrium, hu::contrast_blood);
-  torso.paint([=](const dvec3& p) { return left_chamber(p) + 11.0; }, hu::contrast_blood);
+    hu::portal_phase_vein);
+  torso.paint(left_atrium, hu::portal_phase_artery);
+  torso.paint([=](const dvec3& p) { return left_chamber(p) + 11.0; }, hu::portal_phase_artery);
   // The two papillary muscles, and the coronary arteries in the fat of the grooves.
   torso.paint(
     [=](const dvec3& p)
@@ -419,7 +449,7 @@ void paint_heart(PaintedVolume& torso)
            dvec3(34.0, 54.0, 66.0),
            dvec3(10.0, 34.0, 46.0) } })
   {
-    torso.paint(coronary(course), hu::contrast_blood);
+    torso.paint(coronary(course), hu::portal_phase_artery);
   }
 }
 
@@ -467,7 +497,7 @@ void paint_vessels(PaintedVolume& torso)
       { { dvec3(-12.0, 10.0, 138.0), dvec3(20.0, 0.0, 128.0), dvec3(48.0, -1.0, 116.0) }, 8.5 },
       { { dvec3(-16.0, 10.0, 140.0), dvec3(-34.0, -6.0, 132.0), dvec3(-50.0, -8.0, 114.0) },
         8.5 } },
-    hu::contrast_vein);
+    hu::portal_phase_vein);
   // Arteries: the veins of the lungs carry the same blood.
   paint(
     { { { dvec3(20.0, -8.0, 106.0), dvec3(50.0, -8.0, 98.0) }, 5.5 },
@@ -517,7 +547,7 @@ void paint_vessels(PaintedVolume& torso)
       { { dvec3(-9.0, 2.0, -52.0), dvec3(-4.0, 24.0, -76.0), dvec3(4.0, 34.0, -130.0) }, 3.4 },
       { { dvec3(-8.0, 0.0, -64.0), dvec3(44.0, -26.0, -76.0) }, 2.8 },
       { { dvec3(-8.0, 0.0, -62.0), dvec3(-46.0, -26.0, -66.0) }, 2.8 } },
-    hu::contrast_blood);
+    hu::portal_phase_artery);
 }
 
 }

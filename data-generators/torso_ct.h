@@ -27,8 +27,8 @@ struct TorsoCTOptions
 /// Coordinates are RAS+: x grows from the patient's left to the patient's right, y from back to
 /// front, z from foot to crown. The origin is the middle of the box, which is 400 x 280 x 560 mm,
 /// from the neck to the hip joints; it lies in the body's middle at the height of the twelfth
-/// thoracic vertebra. The patient lies on the back, arms raised, breathed in, a minute after
-/// contrast medium.
+/// thoracic vertebra. The patient lies on the back, arms raised, breathed in, 70 s after
+/// contrast medium: the portal venous phase (hounsfield.h).
 ///
 /// What there is: skin, fat, muscle; neck and shoulders; vertebrae from the sixth of the neck to
 /// the fifth of the loins with discs, canal and cord, sacrum and coccyx; twelve pairs of ribs with

@@ -151,7 +151,7 @@ void paint_liver_vessels(PaintedVolume& torso)
   {
     torso.paint([course, radius](const dvec3& p)
       { return std::max(tube_distance(p, course, radius), liver(p) + 4.0); },
-      hu::contrast_vein - 30.0);
+      hu::portal_vein);
   };
   // The portal vein comes in from below, the liver's own veins leave at the top, behind.
   branch({ dvec3(22.0, 14.0, -40.0),

@@ -22,6 +22,15 @@ enum Outcome
   OtherSize = 11, ///< it gives other pixels than the header promises
 };
 
+/// What the decoder takes: the packed pixels, those of a picture in 32 bits, and what is made of all.
+double decoder_memory(double bytes)
+{
+  return 4 * bytes;
+}
+
+/// And what GDCM may take that does not grow with the pixels: headers, tables, the heap's own share.
+constexpr double Headroom = 64 << 20;
+
 /// What the process of its own does.
 int decode(
   const std::string& path, void* out, std::uint64_t bytes, int scalar_size, std::uint64_t frames)
@@ -54,14 +63,14 @@ bool can_decode(const std::string& transfer_syntax)
 }
 
 std::vector<unsigned char> decode_dicom(const std::string& owner, const std::string& path,
-  std::uint64_t bytes, int scalar_size, std::uint64_t frames)
+  std::uint64_t bytes, int scalar_size, std::uint64_t frames, const Progress& progress)
 {
   const char* const remedy = "decompress it first (gdcmconv --raw IN OUT)";
   const std::string place = owner == path ? owner : owner + ": " + path;
   std::vector<unsigned char> pixels(bytes);
   const SharedMemory shared(bytes);
   const GuardResult result = run_guarded([&] { return decode(path, shared.data(), bytes, scalar_size, frames); },
-    1 + static_cast<double>(bytes) / 4e6, 8 * static_cast<double>(bytes) + (256 << 20));
+    1 + static_cast<double>(bytes) / 4e6, decoder_memory(static_cast<double>(bytes)) + Headroom, progress);
   const bool done = result.end == GuardEnd::Finished && result.status == Decoded;
   if (done)
   {
@@ -74,9 +83,14 @@ std::vector<unsigned char> decode_dicom(const std::string& owner, const std::str
       !finished                      ? spoken_end(result.end)
         : result.status == OtherSize ? "its compressed pixels are not of the size and type that its header gives"
                                      : "its compressed pixels cannot be decoded",
-      remedy);
+      result.end == GuardEnd::Stopped ? "run it again" : remedy);
   }
   return pixels;
+}
+
+double decoding_need(double bytes)
+{
+  return 2 * bytes + decoder_memory(bytes); // what both processes share, and the copy of it
 }
 
 }

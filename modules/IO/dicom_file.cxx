@@ -117,6 +117,44 @@ DicomFrame frame_of(vtkDICOMMetaData* meta, int index)
   return frame;
 }
 
+/// The places of frames that have no functional groups of their own: offsets from slice to slice, as a
+/// dose has them (PS3.3, C.8.8.3.2), else even steps. Without these all would lie at one place.
+void place_frames(vtkDICOMMetaData* meta, DicomFile& file)
+{
+  std::vector<DicomFrame>& frames = file.frames;
+  if (frames.size() < 2 || !frames[0].placed || meta->Has(DC::PerFrameFunctionalGroupsSequence))
+  {
+    return;
+  }
+  const DicomFrame first = frames[0];
+  const std::array<double, 6>& r = first.rows;
+  std::array<double, 3> normal{
+    { r[1] * r[5] - r[2] * r[4], r[2] * r[3] - r[0] * r[5], r[0] * r[4] - r[1] * r[3] }
+  };
+  const vtkDICOMValue& offsets = meta->Get(DC::GridFrameOffsetVector);
+  const bool told = offsets.GetNumberOfValues() == frames.size();
+  const double signed_gap = number(meta->Get(DC::SpacingBetweenSlices), 0);
+  const double gap = signed_gap != 0 ? signed_gap : first.between > 0 ? first.between : 1;
+  // Offsets that do not begin at 0 are the patient's z itself, of slices across it.
+  const double start = told ? offsets.GetDouble(0) : 0;
+  const bool across = std::abs(normal[2]) > 0.999;
+  const double base = start == 0 ? 0 : across ? first.position[2] : start;
+  const double sense = start != 0 && across && normal[2] < 0 ? -1 : 1;
+  for (std::size_t i = 0; i < frames.size(); ++i)
+  {
+    const double away = told ? sense * (offsets.GetDouble(i) - base) : gap * static_cast<double>(i);
+    if (!std::isfinite(away) || std::abs(away) > 1e9)
+    {
+      fail(file.path, "its GridFrameOffsetVector does not tell where its slices lie", Remedy);
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      frames[i].position[axis] = first.position[axis] + away * normal[axis];
+    }
+  }
+  file.spread = !told;
+}
+
 void take_format(vtkDICOMMetaData* meta, DicomFile& file)
 {
   const std::string& path = file.path;
@@ -196,7 +234,8 @@ DicomFile read_dicom_file(const std::string& path)
          DC::TemporalResolution, DC::SamplesPerPixel, DC::PhotometricInterpretation,
          DC::PlanarConfiguration, DC::NumberOfFrames, DC::Rows, DC::Columns, DC::PixelSpacing,
          DC::BitsAllocated, DC::BitsStored, DC::PixelRepresentation, DC::RescaleIntercept,
-         DC::RescaleSlope, DC::SharedFunctionalGroupsSequence,
+         DC::RescaleSlope, DC::GridFrameOffsetVector, DC::DoseGridScaling, DC::DoseUnits,
+         DC::SharedFunctionalGroupsSequence,
          DC::PerFrameFunctionalGroupsSequence, DC::SpecificCharacterSet })
   {
     query.Set(tag, vtkDICOMValue());
@@ -251,6 +290,18 @@ DicomFile read_dicom_file(const std::string& path)
   for (std::uint64_t i = 0; i < frames; ++i)
   {
     file.frames.push_back(frame_of(meta, static_cast<int>(i)));
+  }
+  place_frames(meta, file);
+  const double scaling = number(meta->Get(DC::DoseGridScaling), 0);
+  if (file.modality == "RTDOSE" && scaling > 0)
+  {
+    for (DicomFrame& frame : file.frames)
+    {
+      frame.slope = scaling;
+      frame.intercept = 0;
+    }
+    const std::string unit = plain(meta->Get(DC::DoseUnits));
+    file.value_unit = unit == "GY" ? "Gy" : "";
   }
   return file;
 }

@@ -43,6 +43,9 @@ struct DicomFile
   Scalar scalar = Scalar::UInt16;
   int bits = 16; ///< of each number that count, from the lowest on
   double temporal_resolution = 0; ///< ms between temporal positions; 0: not told
+  std::string value_unit; ///< that the file names: "Gy" of a dose; else empty
+  /// The file's frames have no places of their own, nor offsets: they are set one `between` apart.
+  bool spread = false;
   std::vector<DicomFrame> frames;
 
   std::uint64_t frame_bytes() const;

@@ -4,10 +4,12 @@
 #include "dicom_stack.h"
 #include "file_access.h"
 #include "header_text.h"
+#include "picture_stack.h"
 
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -22,10 +24,9 @@ namespace
 constexpr std::size_t MostFiles = 200000;
 constexpr int DeepestFolder = 8;
 
-/// All DICOM files in a folder and those below it, by name.
-std::vector<std::string> files_below(const std::string& folder)
+/// Hands out the DICOM files in a folder and those below it, until `take` returns false.
+void visit_files(const std::string& folder, const std::function<bool(const std::string&)>& take)
 {
-  std::vector<std::string> files;
   std::error_code error;
   fs::recursive_directory_iterator entry(
     folder, fs::directory_options::skip_permission_denied, error);
@@ -37,20 +38,32 @@ std::vector<std::string> files_below(const std::string& folder)
       entry.disable_recursion_pending();
     }
     if (entry->is_regular_file(ignored) && entry->path().filename() != "DICOMDIR" &&
-      looks_like_dicom(entry->path().string()))
+      looks_like_dicom(entry->path().string()) && !take(entry->path().string()))
     {
-      files.push_back(entry->path().string());
-    }
-    if (files.size() > MostFiles)
-    {
-      fail(folder, "holds more than " + std::to_string(MostFiles) + " DICOM files",
-        "name a folder below it");
+      return;
     }
   }
   if (error)
   {
     fail(folder, "cannot be read: " + error.message(), "check its permissions");
   }
+}
+
+/// All of them, by name.
+std::vector<std::string> files_below(const std::string& folder)
+{
+  std::vector<std::string> files;
+  visit_files(folder,
+    [&](const std::string& path)
+    {
+      files.push_back(path);
+      if (files.size() > MostFiles)
+      {
+        fail(folder, "holds more than " + std::to_string(MostFiles) + " DICOM files",
+          "name a folder below it");
+      }
+      return true;
+    });
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -104,6 +117,18 @@ std::size_t choose(
     "choose one with --series N (" + list + ")");
 }
 
+}
+
+bool has_dicom(const std::string& folder)
+{
+  bool found = false;
+  visit_files(folder,
+    [&found](const std::string&)
+    {
+      found = true;
+      return false;
+    });
+  return found;
 }
 
 ScanHeader read_dicom_header(
@@ -168,6 +193,13 @@ ScanHeader read_dicom_header(
     choices.push_back({ series.front().series_uid, describe(series) });
   }
   ScanHeader header = stack_dicom(path, all[choose(path, wanted, choices)]);
+  if (const std::size_t pictures = folder ? count_pictures(path) : 0; pictures > 0)
+  {
+    messages.push_back(std::to_string(pictures) +
+      (pictures == 1 ? " TIFF or PNG picture lies" : " TIFF or PNG pictures lie") +
+      " beside the DICOM files and " + (pictures == 1 ? "is" : "are") +
+      " passed over: name such a stack by a pattern (NAME%03d.png)");
+  }
   header.messages.insert(header.messages.begin(), messages.begin(), messages.end());
   return header;
 }

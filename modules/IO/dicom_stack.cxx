@@ -342,6 +342,11 @@ ScanHeader stack_dicom(const std::string& path, const std::vector<DicomFile>& fi
       slice.place = dot(slice.frame->position, normal);
     }
   }
+  if (file.spread)
+  {
+    h.messages.push_back("its frames do not tell where each lies; they are set " +
+      number(std::abs(slices.size() > 1 ? slices[1].place - slices[0].place : 0)) + " mm apart");
+  }
   std::vector<std::vector<Slice>> volumes = split_by_time(slices, h);
   double between = frame.between > 0 ? frame.between : 1;
   for (std::size_t v = 0; v < volumes.size(); ++v)
@@ -403,7 +408,7 @@ ScanHeader stack_dicom(const std::string& path, const std::vector<DicomFile>& fi
     h.affine = { { frame.pixel[0], 0, 0, 0, 0, frame.pixel[1], 0, 0, 0, 0, between, 0 } };
   }
   h.length_unit = "mm";
-  h.value_unit = file.modality == "CT" && file.components == 1 ? "HU" : "";
+  h.value_unit = file.modality == "CT" && file.components == 1 ? "HU" : file.value_unit;
   if (file.components == 1)
   {
     take_rescale(volumes, h);

@@ -25,6 +25,7 @@ struct Pattern
   std::string before;
   std::string after;
   std::size_t digits = 1; ///< at least
+  char mark = 0;          ///< the character that it begins with
   bool found = false;
 };
 
@@ -54,7 +55,7 @@ Pattern parse(const std::string& name)
       }
       ++end;
     }
-    p = { name.substr(0, begin), name.substr(end), std::max<std::size_t>(digits, 1), true };
+    p = { name.substr(0, begin), name.substr(end), std::max<std::size_t>(digits, 1), name[begin], true };
   }
   return p;
 }
@@ -66,6 +67,26 @@ bool is_file_pattern(const std::string& path)
   std::error_code error;
   return !path.empty() && !fs::exists(path, error) && !error &&
     parse(fs::path(path).filename().string()).found;
+}
+
+bool has_number_mark(const std::string& path)
+{
+  const std::string name = fs::path(path).filename().string();
+  const Pattern p = parse(name);
+  return p.found && (p.mark == '%' || (p.mark == '#' && p.digits > 1));
+}
+
+std::string numbered_name(const std::string& pattern, std::int64_t number)
+{
+  const fs::path path(pattern);
+  if (!has_number_mark(pattern))
+  {
+    return pattern;
+  }
+  const Pattern p = parse(path.filename().string());
+  std::string digits = std::to_string(number);
+  digits.insert(0, p.digits - std::min(p.digits, digits.size()), '0');
+  return (path.parent_path() / (p.before + digits + p.after)).string();
 }
 
 std::vector<NumberedFile> numbered_files(const std::string& pattern)

@@ -54,9 +54,10 @@ struct ImageFile
 void write_nrrd(ImageFile& image, const std::string& path);
 /// MetaImage in one file, raw or deflated; in LPS for a patient's volume, as ITK has it.
 void write_meta(ImageFile& image, const std::string& path);
-/// NIfTI-1 in one file, gzipped where the path ends in .gz; the affine as sform and qform.
+/// NIfTI-1 in one file, gzipped where the path ends in .gz; the affine as sform and qform. NIfTI-2 where
+/// an axis is longer than the 32767 voxels that NIfTI-1 holds.
 void write_nifti(ImageFile& image, const std::string& path);
-/// Raw voxels, and PATH.json that describes them; both keep all of it but the name.
+/// Raw voxels, and PATH.json that describes them.
 void write_raw(ImageFile& image, const std::string& path);
 /// A TIFF of one page a slice, deflated or not; spacing and unit as ImageJ has them.
 void write_tiff(ImageFile& image, const std::string& path);

@@ -63,7 +63,7 @@ struct Nifti
   double quaternion[3] = {};
   double offset[3] = {};
   double rows[12] = {};
-  std::string description; // a NIfTI-1's descrip
+  std::string description; // descrip; empty in Analyze
 };
 
 template <typename Dim, typename Real>
@@ -130,6 +130,8 @@ Nifti parse(const std::string& path, const unsigned char* bytes, std::size_t len
     n.sform = f.get<std::int32_t>(348);
     take_forms<double>(n, f, 352);
     n.units = f.get<std::int32_t>(500);
+    const auto* text = reinterpret_cast<const char*>(bytes + 240);
+    n.description.assign(text, std::find(text, text + 80, '\0'));
     return n;
   }
   if (size != 348)

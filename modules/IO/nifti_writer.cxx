@@ -1,4 +1,5 @@
-// NIfTI-1 in one file. The fields: R. W. Cox et al., nifti1.h, NIfTI Data Format Working Group.
+// NIfTI in one file: NIfTI-1, or NIfTI-2 for what NIfTI-1's 16-bit counts do not hold. The fields: R. W.
+// Cox et al., nifti1.h and nifti2.h, NIfTI Data Format Working Group; offsets below are theirs.
 #include "image_file.h"
 
 #include "atomic_file.h"
@@ -13,10 +14,32 @@ namespace brume::io
 namespace
 {
 
-/// The header's 348 bytes, the four of "no extension" behind them: voxels begin at 352.
+/// The header's 348 or 540 bytes, the four of "no extension" behind them: voxels begin at 352 or 544.
+/// Each field is given by its place in NIfTI-1 and in NIfTI-2.
 class Header
 {
 public:
+  explicit Header(bool second)
+    : second_(second)
+    , bytes_(second ? 544 : 352, '\0')
+  {
+  }
+  std::size_t size() const { return bytes_.size(); }
+  /// The i-th of real numbers in a row.
+  void real(std::size_t first, std::size_t second, std::size_t i, double value)
+  {
+    second_ ? put(second + 8 * i, value) : put(first + 4 * i, static_cast<float>(value));
+  }
+  /// The i-th of counts in a row.
+  void count(std::size_t first, std::size_t second, std::size_t i, std::int64_t value)
+  {
+    second_ ? put(second + 8 * i, value) : put(first + 2 * i, static_cast<std::int16_t>(value));
+  }
+  /// A code: 16 bits in NIfTI-1, 32 in NIfTI-2.
+  void code(std::size_t first, std::size_t second, std::int32_t value)
+  {
+    second_ ? put(second, value) : put(first, static_cast<std::int16_t>(value));
+  }
   template <class T>
   void put(std::size_t offset, T value)
   {
@@ -29,7 +52,8 @@ public:
   const std::string& bytes() const { return bytes_; }
 
 private:
-  std::string bytes_ = std::string(352, '\0');
+  bool second_;
+  std::string bytes_;
 };
 
 std::int16_t type_code(Scalar scalar)
@@ -110,16 +134,8 @@ bool ends_with_gz(const std::string& path)
 
 void write_nifti(ImageFile& image, const std::string& path)
 {
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    if (image.dimensions[axis] > 32767)
-    {
-      fail(path,
-        "NIfTI-1 holds 32767 voxels along an axis, and the volume has " +
-          std::to_string(image.dimensions[axis]),
-        "write .nrrd, .mha or .vti");
-    }
-  }
+  const bool second =
+    *std::max_element(image.dimensions.begin(), image.dimensions.end()) > 32767;
   if (image.components > 16)
   {
     fail(path,
@@ -127,16 +143,24 @@ void write_nifti(ImageFile& image, const std::string& path)
         " components, and Brume reads up to 16 of NIfTI",
       "write .nrrd, .mha or .vti");
   }
-  Header h;
-  h.put<std::int32_t>(0, 348);
-  h.put<char>(38, 'r'); // "regular", for Analyze
+  Header h(second);
+  h.put<std::int32_t>(0, second ? 540 : 348);
+  if (second)
+  {
+    h.put(4, std::string("n+2\0\r\n\032\n", 8), 9);
+  }
+  else
+  {
+    h.put<char>(38, 'r'); // "regular", for Analyze
+    h.put(344, std::string("n+1"), 4);
+  }
   const bool several = image.components > 1;
-  const std::int16_t dim[8] = { static_cast<std::int16_t>(several ? 5 : 3),
-    static_cast<std::int16_t>(image.dimensions[0]),
-    static_cast<std::int16_t>(image.dimensions[1]),
-    static_cast<std::int16_t>(image.dimensions[2]),
+  const std::int64_t dim[8] = { several ? 5 : 3,
+    image.dimensions[0],
+    image.dimensions[1],
+    image.dimensions[2],
     1,
-    static_cast<std::int16_t>(image.components),
+    image.components,
     1,
     1 };
   const std::array<double, 3> spacing = image.spacing();
@@ -149,50 +173,48 @@ void write_nifti(ImageFile& image, const std::string& path)
       turn[3 * row + 2] = -turn[3 * row + 2]; // and qfac = −1 turns it back
     }
   }
-  const float pixdim[8] = { left ? -1.f : 1.f,
-    static_cast<float>(spacing[0]),
-    static_cast<float>(spacing[1]),
-    static_cast<float>(spacing[2]),
-    1,
-    1,
-    1,
-    1 };
+  const double pixdim[8] = {
+    left ? -1.0 : 1.0, spacing[0], spacing[1], spacing[2], 1.0, 1.0, 1.0, 1.0
+  };
   for (std::size_t i = 0; i < 8; ++i)
   {
-    h.put(40 + 2 * i, dim[i]);
-    h.put(76 + 4 * i, pixdim[i]);
+    h.count(40, 16, i, dim[i]);
+    h.real(76, 104, i, pixdim[i]);
   }
-  h.put<std::int16_t>(68, several ? 1007 : 0); // a vector a voxel
-  h.put(70, type_code(image.scalar));
-  h.put(72, static_cast<std::int16_t>(8 * scalar_size(image.scalar)));
-  h.put<float>(108, 352);
-  h.put<float>(112, 1); // slope
+  h.code(68, 504, several ? 1007 : 0); // a vector a voxel
+  h.put(second ? 12 : 70, type_code(image.scalar));
+  h.put(second ? 14 : 72, static_cast<std::int16_t>(8 * scalar_size(image.scalar)));
+  second ? h.put<std::int64_t>(168, 544) : h.put<float>(108, 352); // where voxels begin
+  h.real(112, 176, 0, 1.0);                                        // slope
   const std::string& unit = image.length_unit;
   const char code = unit == "m" ? 1 : unit == "mm" ? 2 : unit == "um" ? 3 : 0;
-  h.put<char>(123, code);
-  h.put(148, write_mark(image, code != 0), 80);
+  second ? h.put<std::int32_t>(500, code) : h.put<char>(123, code);
+  h.put(second ? 240 : 148, write_mark(image, code != 0), 80);
 
   // The same transform twice: readers differ in which they take.
-  const std::int16_t kind =
-    image.patient ? 1 : 2; // scanner's axes; other ones, which the mark tells
-  h.put(252, kind);
-  h.put(254, kind);
+  const int kind = image.patient ? 1 : 2; // scanner's axes; other ones, which the mark tells
+  h.code(252, 344, kind);
+  h.code(254, 348, kind);
   const std::array<double, 4> q = quaternion(turn);
   for (std::size_t i = 0; i < 3; ++i)
   {
-    h.put(256 + 4 * i, static_cast<float>(q[1 + i]));
-    h.put(268 + 4 * i, static_cast<float>(image.affine[4 * i + 3]));
+    h.real(256, 352, i, q[1 + i]);
+    h.real(268, 376, i, image.affine[4 * i + 3]);
   }
   bool rounded = false;
   for (std::size_t i = 0; i < 12; ++i)
   {
-    h.put(280 + 4 * i, static_cast<float>(image.affine[i]));
+    h.real(280, 400, i, image.affine[i]);
     rounded =
       rounded || static_cast<double>(static_cast<float>(image.affine[i])) != image.affine[i];
   }
-  h.put(344, std::string("n+1"), 4);
 
-  if (rounded)
+  if (second)
+  {
+    image.messages.push_back("an axis has more than 32767 voxels, which NIfTI-1 does not hold: it is "
+                             "NIfTI-2, which not every program reads");
+  }
+  if (rounded && !second)
   {
     image.messages.push_back("NIfTI-1 holds spacing, origin and direction in single precision: "
                              "they are rounded to seven digits");

@@ -13,30 +13,9 @@ namespace
 
 const char* type_name(Scalar scalar)
 {
-  switch (scalar)
-  {
-    case Scalar::Int8:
-      return "int8";
-    case Scalar::UInt8:
-      return "uint8";
-    case Scalar::Int16:
-      return "int16";
-    case Scalar::UInt16:
-      return "uint16";
-    case Scalar::Int32:
-      return "int32";
-    case Scalar::UInt32:
-      return "uint32";
-    case Scalar::Int64:
-      return "int64";
-    case Scalar::UInt64:
-      return "uint64";
-    case Scalar::Float32:
-      return "float";
-    case Scalar::Float64:
-      return "double";
-  }
-  return "";
+  return scalar == Scalar::Float32   ? "float"
+         : scalar == Scalar::Float64 ? "double"
+                                     : scalar_name(scalar);
 }
 
 std::string vector_text(const std::array<double, 12>& affine, int column)

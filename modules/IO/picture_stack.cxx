@@ -238,13 +238,30 @@ void place(ScanHeader& h, const Common& common)
   {
     pixel[axis] = size[axis];
   }
+  // A hyperstack: channels go fastest, then slices, then frames. Channels become components.
+  const std::int64_t channels = whole_number(number(imagej(text, "channels"), 1));
+  if (channels > 1 && h.components == 1)
+  {
+    if (h.dimensions[2] % channels == 0 && channels <= 64)
+    {
+      h.components = channels;
+      h.part_planar = true;
+      h.dimensions[2] /= channels;
+    }
+    else
+    {
+      h.messages.push_back("its description tells of " + std::to_string(channels) +
+        " channels, which its " + std::to_string(h.dimensions[2]) +
+        " pages cannot be; each is taken for a slice");
+    }
+  }
   const double between = number(imagej(text, "spacing"), 0);
   h.affine = { { pixel[0], 0, 0, 0, 0, pixel[1], 0, 0, 0, 0, between > 0 ? between : pixel[0], 0 } };
   if (!known || screen)
   {
     h.messages.push_back("the pictures do not tell the size of a pixel; it is taken for 1");
   }
-  if (between <= 0 && h.parts.size() > 1)
+  if (between <= 0 && h.dimensions[2] > 1)
   {
     h.messages.push_back("the pictures do not tell how far apart they are; as far as pixels is assumed");
   }
@@ -300,11 +317,35 @@ ScanHeader read_picture_header(const std::string& path, const std::vector<Number
   }
   h.dimensions[2] = static_cast<std::int64_t>(h.parts.size());
   place(h, common);
-  if (h.dimensions[2] == 1 && h.times.empty())
+  if (h.parts.size() == 1)
   {
     h.messages.push_back("is one picture; name the folder, or NAME%03d.tif, for a stack of them");
   }
   return h;
+}
+
+namespace
+{
+
+/// ".tiff" or ".png"; empty for another.
+std::string picture_ending(const fs::path& path)
+{
+  const std::string ending = lowered(path.extension().string());
+  return ending == ".tif" || ending == ".tiff" ? ".tiff" : ending == ".png" ? ending : "";
+}
+
+}
+
+std::size_t count_pictures(const std::string& folder)
+{
+  std::size_t count = 0;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error); !error && entry != fs::directory_iterator();
+       entry.increment(error))
+  {
+    count += !picture_ending(entry->path()).empty();
+  }
+  return count;
 }
 
 std::vector<NumberedFile> pictures_in(const std::string& folder)
@@ -315,10 +356,8 @@ std::vector<NumberedFile> pictures_in(const std::string& folder)
   for (fs::directory_iterator entry(folder, error); !error && entry != fs::directory_iterator();
        entry.increment(error))
   {
-    const std::string name = entry->path().filename().string();
-    std::string ending = lowered(entry->path().extension().string());
-    ending = ending == ".tif" ? ".tiff" : ending;
-    if (ending != ".tiff" && ending != ".png")
+    const std::string ending = picture_ending(entry->path());
+    if (ending.empty())
     {
       continue;
     }
@@ -350,6 +389,8 @@ void read_pictures(const ScanHeader& header, unsigned char* out, const Progress&
     OIIO::TypeDesc::INT16, OIIO::TypeDesc::UINT16, OIIO::TypeDesc::INT32, OIIO::TypeDesc::UINT32,
     OIIO::TypeDesc::INT64, OIIO::TypeDesc::UINT64, OIIO::TypeDesc::FLOAT, OIIO::TypeDesc::DOUBLE };
   const OIIO::TypeDesc type(types[static_cast<int>(header.scalar)]);
+  // Channels lie within a page, or, of a hyperstack, in pages of their own.
+  const auto channels = static_cast<int>(header.part_planar ? 1 : header.components);
   const std::size_t each = header.bytes() / header.parts.size();
   const SharedMemory pixels(header.bytes());
   const SharedMemory page(sizeof(double));
@@ -370,8 +411,8 @@ void read_pictures(const ScanHeader& header, unsigned char* out, const Progress&
       if (!input || !input->seek_subimage(subimage, 0) ||
         input->spec().width != header.dimensions[0] ||
         input->spec().height != header.dimensions[1] ||
-        input->spec().nchannels != header.components ||
-        !input->read_image(subimage, 0, 0, static_cast<int>(header.components), type,
+        input->spec().nchannels != channels ||
+        !input->read_image(subimage, 0, 0, channels, type,
           static_cast<unsigned char*>(pixels.data()) + i * each))
       {
         return 1;

@@ -24,6 +24,9 @@ int count_pages(const std::string& path);
 /// Throws fail() where there are both.
 std::vector<NumberedFile> pictures_in(const std::string& folder);
 
+/// How many of either there are, by their names.
+std::size_t count_pictures(const std::string& folder);
+
 /// Reads what read_picture_header() found, in a process of its own. As read_voxels().
 void read_pictures(const ScanHeader& header, unsigned char* out, const Progress& progress);
 

@@ -10,7 +10,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <set>
 
 namespace brume::io
@@ -128,7 +127,7 @@ json parse(const std::string& path)
     fail(path, "holds no JSON object", Remedy);
   }
   static const std::set<std::string> known{ "file", "dimensions", "type", "byte_order", "components",
-    "offset", "spacing", "origin", "direction", "unit", "value_unit", "patient_axes", "slope",
+    "offset", "spacing", "origin", "direction", "unit", "value_unit", "patient_axes", "array", "slope",
     "intercept", "time_start", "time_step", "time_unit" };
   for (const auto& [key, value] : object.items())
   {
@@ -175,17 +174,21 @@ ScanHeader read_raw_header(const std::string& path)
   h.path = path;
   h.format = "raw";
 
-  static const std::map<std::string, Scalar> types{ { "int8", Scalar::Int8 },
-    { "uint8", Scalar::UInt8 }, { "int16", Scalar::Int16 }, { "uint16", Scalar::UInt16 },
-    { "int32", Scalar::Int32 }, { "uint32", Scalar::UInt32 }, { "int64", Scalar::Int64 },
-    { "uint64", Scalar::UInt64 }, { "float32", Scalar::Float32 }, { "float64", Scalar::Float64 } };
-  const auto type = types.find(sidecar.text("type", ""));
-  if (type == types.end())
+  std::string known;
+  bool found = false;
+  for (const Scalar type : Scalars)
   {
-    sidecar.refuse("type", "one of int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, "
-                           "float64");
+    known += (known.empty() ? "" : ", ") + std::string(scalar_name(type));
+    if (sidecar.text("type", "") == scalar_name(type))
+    {
+      h.scalar = type;
+      found = true;
+    }
   }
-  h.scalar = type->second;
+  if (!found)
+  {
+    sidecar.refuse("type", "one of " + known);
+  }
   const std::string order = sidecar.text("byte_order", scalar_size(h.scalar) == 1 ? "little" : "");
   if (order != "little" && order != "big")
   {
@@ -262,6 +265,13 @@ ScanHeader read_raw_header(const std::string& path)
     convert_to_millimetres(h, unit);
   }
   h.value_unit = shortened(sidecar.text("value_unit", ""));
+  std::string array = sidecar.text("array", "");
+  for (char& c : array)
+  {
+    c = static_cast<unsigned char>(c) < 32 || c == 127 ? ' ' : c;
+  }
+  array = shortened(trimmed(array));
+  h.array = array.empty() ? h.array : array;
   h.slope = sidecar.number("slope", 1);
   h.intercept = sidecar.number("intercept", 0);
   if (h.slope == 0)

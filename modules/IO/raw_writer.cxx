@@ -9,45 +9,16 @@
 namespace brume::io
 {
 
-namespace
-{
-
-const char* type_name(Scalar scalar)
-{
-  switch (scalar)
-  {
-    case Scalar::Int8:
-      return "int8";
-    case Scalar::UInt8:
-      return "uint8";
-    case Scalar::Int16:
-      return "int16";
-    case Scalar::UInt16:
-      return "uint16";
-    case Scalar::Int32:
-      return "int32";
-    case Scalar::UInt32:
-      return "uint32";
-    case Scalar::Int64:
-      return "int64";
-    case Scalar::UInt64:
-      return "uint64";
-    case Scalar::Float32:
-      return "float32";
-    case Scalar::Float64:
-      return "float64";
-  }
-  return "";
-}
-
-}
-
 void write_raw(ImageFile& image, const std::string& path)
 {
   const std::array<double, 9> d = image.direction();
   nlohmann::ordered_json json;
+  if (!image.array.empty())
+  {
+    json["array"] = image.array;
+  }
   json["dimensions"] = image.dimensions;
-  json["type"] = type_name(image.scalar);
+  json["type"] = scalar_name(image.scalar);
   json["byte_order"] = machine_is_big_endian() ? "big" : "little";
   json["components"] = image.components;
   json["spacing"] = image.spacing();
@@ -64,10 +35,6 @@ void write_raw(ImageFile& image, const std::string& path)
   if (!image.value_unit.empty())
   {
     json["value_unit"] = image.value_unit;
-  }
-  if (!image.array.empty())
-  {
-    image.messages.push_back("raw voxels hold no name: '" + image.array + "' is lost");
   }
   const std::string text =
     json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

@@ -1,6 +1,6 @@
 #include "scan_format.h"
 
-#include "dicom_layout.h"
+#include "dicom_series.h"
 #include "file_access.h"
 #include "header_text.h"
 #include "picture_stack.h"
@@ -67,22 +67,6 @@ bool is_text(const std::string& bytes)
     [](unsigned char c) { return c >= 32 || c == '\n' || c == '\r' || c == '\t'; });
 }
 
-/// Whether a file right in the folder is DICOM: pictures beside it are of the papers then.
-bool has_dicom(const std::string& folder)
-{
-  std::error_code error;
-  for (std::filesystem::directory_iterator entry(folder, error);
-       !error && entry != std::filesystem::directory_iterator(); entry.increment(error))
-  {
-    std::error_code ignored;
-    if (entry->is_regular_file(ignored) && looks_like_dicom(entry->path().string()))
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
 [[noreturn]] void refuse(const std::string& path, const std::string& bytes, bool deflated)
 {
   const std::string name = lowered(path);
@@ -124,6 +108,7 @@ Format find_format(const std::string& path)
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
   {
+    // Scans go before pictures of the papers that lie beside them.
     return has_dicom(path) || pictures_in(path).empty() ? Format::Dicom : Format::Pictures;
   }
   if (file_length(path, path) == 0)

@@ -12,6 +12,13 @@
 namespace brume::io
 {
 
+const char* scalar_name(Scalar type)
+{
+  static const char* const names[] = { "int8", "uint8", "int16", "uint16", "int32", "uint32", "int64",
+    "uint64", "float32", "float64" };
+  return names[static_cast<int>(type)];
+}
+
 int scalar_size(Scalar type)
 {
   switch (type)

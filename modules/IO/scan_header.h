@@ -26,6 +26,12 @@ enum class Scalar
 };
 /// Bytes of one number of that type: 1 to 8.
 int scalar_size(Scalar type);
+/// "uint16", "float32": the names of these types in raw sidecars; NRRD's are the same but for "float" and
+/// "double".
+const char* scalar_name(Scalar type);
+/// All of them, in the order above.
+inline constexpr Scalar Scalars[] = { Scalar::Int8, Scalar::UInt8, Scalar::Int16, Scalar::UInt16,
+  Scalar::Int32, Scalar::UInt32, Scalar::Int64, Scalar::UInt64, Scalar::Float32, Scalar::Float64 };
 
 /// How the numbers lie in the data file.
 enum class Encoding
@@ -58,7 +64,7 @@ struct ScanHeader
   std::array<std::int64_t, 3> dimensions{ { 0, 0, 0 } }; ///< voxels, x fastest
   std::int64_t components = 1;                           ///< numbers a voxel
   bool planar = false; ///< components lie one volume after another, rather than voxel by voxel
-  bool part_planar = false; ///< the same within each part
+  bool part_planar = false; ///< the same within each slice
   Scalar scalar = Scalar::UInt8;
   int stored_bits = 0; ///< of whole numbers, the lowest that count; 0: all
   bool swap_bytes = false; ///< the file's byte order is not this machine's

@@ -1,5 +1,7 @@
 #include "scan_values.h"
 
+#include "dicom_decode.h"
+
 #include "vtkDataArray.h"
 
 #include <algorithm>
@@ -69,6 +71,17 @@ double memory_need(const ScanHeader& header)
     const int type = value_type(header);
     const int size = type == VTK_SHORT ? 2 : type == VTK_FLOAT ? 4 : 8;
     need = std::max(need, stored + stored / scalar_size(header.scalar) * size);
+  }
+  if (header.encoding == Encoding::Dicom)
+  {
+    // All pictures of a file are decoded at once.
+    const double slice = stored / std::max(static_cast<double>(header.dimensions[2]), 1.0);
+    double largest = 0;
+    for (const DataPart& part : header.parts)
+    {
+      largest = std::max(largest, slice * static_cast<double>(part.frames));
+    }
+    need = std::max(need, stored + decoding_need(largest));
   }
   return need;
 }

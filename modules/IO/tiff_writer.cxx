@@ -95,6 +95,7 @@ void write_tiff(ImageFile& image, const std::string& path)
   spec.attribute("YResolution", static_cast<float>(1.0 / spacing[1]));
   spec.attribute("ResolutionUnit", "none");
   spec.attribute("compression", image.compress ? "zip" : "none");
+  spec.attribute("DateTime", ""); // OpenImageIO would put the clock into the file
   constexpr std::uint64_t largest_classic = 4000000000u; // offsets of 32 bits, less what pages need
   spec.attribute("tiff:bigtiff", image.bytes() > largest_classic ? 1 : 0);
 

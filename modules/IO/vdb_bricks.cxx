@@ -129,7 +129,9 @@ std::shared_ptr<const SparseVoxels> take(Tree& tree,
   return std::make_shared<SparseVoxels>(half ? VoxelType::Float16 : VoxelType::Float32,
     static_cast<double>(background),
     topology,
-    fill);
+    fill,
+    0,
+    static_cast<std::size_t>(memory_limit(limit)));
 }
 
 }

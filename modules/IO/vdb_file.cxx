@@ -296,7 +296,23 @@ std::vector<VdbGrid> list_grids(const std::string& path, std::uint64_t length)
 
 }
 
-std::vector<VdbGrid> list_vdb_grids(const std::string& path)
+namespace
+{
+
+/// Whether the file has no offsets of its grids: it was saved as a stream. The flag follows on the mark
+/// (8 bytes), the version (4) and the library's version (8).
+bool is_stream(const std::string& path)
+{
+  constexpr std::size_t Place = 20;
+  std::ifstream in(path, std::ios::binary);
+  char bytes[Place + 1] = {};
+  return in.read(bytes, sizeof(bytes)) && bytes[Place] == 0;
+}
+
+}
+
+std::vector<VdbGrid> list_vdb_grids(
+  const std::string& path, std::uint64_t limit, const Progress& progress)
 {
   const std::uint64_t length = file_length(path, path);
   if (length == 0)
@@ -308,7 +324,16 @@ std::vector<VdbGrid> list_vdb_grids(const std::string& path)
     fail(path, "is not an OpenVDB file", "name a .vdb file");
   }
   openvdb::initialize();
-  rehearse(path, [&] { list_grids(path, length); }, 1, 32 << 20);
+  // Headers take next to nothing; of a stream every voxel is read. A block of zeroes is packed to a
+  // sixteenth at the most, since its masks are not.
+  const double size = is_stream(path) ? static_cast<double>(length) : 0.0;
+  const double bytes = std::min((32 << 20) + 32 * size, static_cast<double>(memory_limit(limit)));
+  rehearse(
+    path,
+    [&] { list_grids(path, length); },
+    1 + size / 5e6,
+    std::max(bytes, static_cast<double>(32 << 20)),
+    [&](double) { return !progress || progress(0); });
   return list_grids(path, length);
 }
 
@@ -429,6 +454,12 @@ VdbVolume read_vdb_grid(const std::string& path,
         fail(path,
           "its grid '" + which.name + "' cannot be held: " + error.what(),
           "take a part of it");
+      }
+      catch (const std::length_error& error)
+      {
+        fail(path,
+          "its grid '" + which.name + "' cannot be held: " + error.what(),
+          "take a part of it, or allow more (--max-memory)");
       }
       if (!volume.voxels)
       {

@@ -49,8 +49,10 @@ struct VdbVolume
 bool looks_like_vdb(const std::string& path);
 
 /// The grids in the order of the file. Nothing of their size is read; a file that is shorter than
-/// its grids is found out. Throws std::runtime_error as fail() in scan_header.h does.
-std::vector<VdbGrid> list_vdb_grids(const std::string& path);
+/// its grids is found out. A file that was saved as a stream has no table of contents and is read whole,
+/// within `limit` bytes (memory_limit.h). Throws std::runtime_error as fail() in scan_header.h does.
+std::vector<VdbGrid> list_vdb_grids(
+  const std::string& path, std::uint64_t limit = 0, const Progress& progress = {});
 
 /// Reads one grid of list_vdb_grids(). Its voxels go from the file to their bricks at once, on all
 /// processors, and are never held twice. `level_set_to_fog`: a level set becomes a density, 1 where it

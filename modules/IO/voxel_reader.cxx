@@ -97,8 +97,10 @@ void read_dicom(const ScanHeader& header, unsigned char* out, const Progress& pr
       pictures.clear();
       pictures.shrink_to_fit();
       path = part.path;
-      pictures = decode_dicom(
-        header.path, path, each * part.frames, scalar_size(header.scalar), part.frames);
+      pictures = decode_dicom(header.path, path, each * part.frames, scalar_size(header.scalar),
+        part.frames,
+        [&](double)
+        { return !progress || progress(static_cast<double>(done) / static_cast<double>(header.parts.size())); });
     }
     std::memcpy(out + done * each, pictures.data() + part.frame * each, each);
     ++done;
@@ -329,11 +331,12 @@ void read_voxels(const ScanHeader& header, void* out, const Progress& progress)
   }
   if (planar)
   {
-    const std::size_t parts = header.part_planar ? header.parts.size() : 1;
-    const std::size_t each = header.bytes() / parts;
-    for (std::size_t part = 0; part < parts; ++part)
+    const std::size_t slices =
+      header.part_planar ? static_cast<std::size_t>(header.dimensions[2]) : 1;
+    const std::size_t each = header.bytes() / slices;
+    for (std::size_t slice = 0; slice < slices; ++slice)
     {
-      interleave(bytes + part * each, planes.data() + part * each, header.voxels() / parts,
+      interleave(bytes + slice * each, planes.data() + slice * each, header.voxels() / slices,
         header.components, scalar_size(header.scalar));
     }
   }

@@ -249,7 +249,13 @@ int vtkBrumeOpenVDBReader::RequestInformation(vtkInformation*,
         self.Files = io::numbered_files(self.Path);
         self.Path = self.Files[0].path;
       }
-      self.Grids = io::list_vdb_grids(self.Path);
+      self.Grids = io::list_vdb_grids(self.Path,
+        static_cast<std::uint64_t>(this->MaximumMemory),
+          [this](double done)
+          {
+            this->UpdateProgress(done);
+            return !this->GetAbortExecute();
+          });
       if (self.Files.size() > 1)
       {
         std::vector<double> times;
@@ -292,7 +298,13 @@ int vtkBrumeOpenVDBReader::RequestData(vtkInformation*,
             : 0];
         if (file.path != self.Path)
         {
-          self.Grids = io::list_vdb_grids(file.path);
+          self.Grids = io::list_vdb_grids(file.path,
+            static_cast<std::uint64_t>(this->MaximumMemory),
+              [this](double done)
+              {
+                this->UpdateProgress(done);
+                return !this->GetAbortExecute();
+              });
           self.Path = file.path;
         }
         output->GetInformation()->Set(

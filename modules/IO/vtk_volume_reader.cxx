@@ -409,7 +409,9 @@ VtkVolume read_guarded(const std::string& path, std::uint64_t limit, const Progr
   }
   if (!volume.image)
   {
-    throw std::runtime_error(words.empty() ? path + ": VTK cannot read it: " + Remedy : words);
+    // Brume's own errors name the file; what else comes out of VTK's readers speaks of containers.
+    throw std::runtime_error(
+      words.compare(0, path.size(), path) == 0 ? words : path + ": VTK cannot read it: " + Remedy);
   }
   settle_scalars(volume, path); // again, for its messages
   return volume;

@@ -10,7 +10,8 @@
  * World units are metres, x and y around 0, z up. A cumulus' box is Width x Width x 0.6 Width, with
  * its base at 0.08 Width, unless BaseHeight and TopHeight say otherwise; nothing of it comes nearer
  * to the box's faces than 0.02 Width, so all outer voxels are exactly 0 where voxels are no larger
- * than 0.04 Width (from Size = 26 on, unless the box is higher than wide). Boxes and formulas of all kinds, and where they come from: data-generators/clouds.h and cumulus.h.
+ * than 0.04 Width (from Size = 26 on, unless the box is higher than wide). Boxes and formulas of
+ * all kinds, and where they come from: data-generators/clouds.h and cumulus.h.
  *
  * Each kind has defaults of its own, which SetKind() puts in place: set the kind first. Those named
  * below are a cumulus'.
@@ -79,8 +80,9 @@ public:
   ///@{
   /**
    * Fraction of the ground that is under cloud, for cumulus fields and layers, away from the sides
-   * of the box. Without a unit, default 0.5, range 0 to 1; outside it the nearest end. A cumulus
-   * and a cumulonimbus are one cloud, and it does not matter.
+   * of the box; data-generators/clouds.h says what is counted, and how well it is met. Without a
+   * unit, default 0.5, range 0 to 1; outside it the nearest end. A cumulus and a cumulonimbus are
+   * one cloud, and it does not matter.
    */
   vtkSetClampMacro(Coverage, double, 0.0, 1.0);
   vtkGetMacro(Coverage, double);

@@ -2,19 +2,10 @@
  * @class   vtkBrumeFieldSource
  * @brief   a density that is a function of place and time, sampled dense or sparse
  *
- * What vtkBrumeCloudSource and vtkBrumeFogSource have in common. Gives a density in [0, 1], without
- * a unit, named "density": multiply by an extinction per metre to get the medium's extinction.
- * World units are metres and seconds, z is up.
- *
- * Dense (the default) the output is a vtkImageData of floats: the source makes the pieces that it
- * is asked for; together they equal the whole, to the bit. Sparse (SparseOn()) it is a
- * vtkBrumeSparseVolume with voxels only where there is something, made without a dense volume on
- * the way; it has no extents, and is whole for piece 0 and empty for all others. Either holds the
- * same voxels. Where nothing is to be seen a sparse volume has no voxels.
- *
- * The same settings give the same bytes on every machine and with any number of threads. The source
- * reports progress, and stops soon after AbortExecute is set: the output is then empty, and the
- * next update starts over. A setting that makes no volume is an error, and gives an empty output.
+ * What the sources of clouds, fog, particles and smoke have in common beyond vtkBrumeSampledSource:
+ * which one of its kind, and when. They give a density without a unit, named "density": multiply by
+ * an extinction per metre to get the medium's extinction. World units are metres and seconds, z is
+ * up.
  *
  * Time: the source has TIME_STEPS (NumberOfTimeSteps of them, from StartTime to EndTime) and a
  * TIME_RANGE. Any moment can be asked for by UPDATE_TIME_STEP, not those of the steps alone; where
@@ -23,32 +14,14 @@
 #ifndef vtkBrumeFieldSource_h
 #define vtkBrumeFieldSource_h
 
+#include "vtkBrumeSampledSource.h"
 #include "vtkBrumeSourcesModule.h" // for the export macro
-#include "vtkImageAlgorithm.h"
 
-#include <memory> // for the field that is kept
-
-class vtkBrumeSparseVolume;
-
-namespace brume
-{
-class Field;
-}
-
-class VTKBRUMESOURCES_EXPORT vtkBrumeFieldSource : public vtkImageAlgorithm
+class VTKBRUMESOURCES_EXPORT vtkBrumeFieldSource : public vtkBrumeSampledSource
 {
 public:
-  vtkTypeMacro(vtkBrumeFieldSource, vtkImageAlgorithm);
+  vtkTypeMacro(vtkBrumeFieldSource, vtkBrumeSampledSource);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  ///@{
-  /**
-   * Voxels along the longest side of the volume. Voxels are cubes; the other sides get as many as
-   * fit, at least 2. Default 256, range 2 to 4096; outside it the nearest end.
-   */
-  vtkSetClampMacro(Size, int, 2, 4096);
-  vtkGetMacro(Size, int);
-  ///@}
 
   ///@{
   /**
@@ -81,62 +54,22 @@ public:
   vtkGetMacro(NumberOfTimeSteps, int);
   ///@}
 
-  ///@{
-  /**
-   * Whether the output is a vtkBrumeSparseVolume in place of a vtkImageData. Default off. The
-   * output port's data object is another one after this changes: ask for it again.
-   */
-  vtkSetMacro(Sparse, bool);
-  vtkGetMacro(Sparse, bool);
-  vtkBooleanMacro(Sparse, bool);
-  ///@}
-
-  /**
-   * The output where it is sparse; null where it is dense. (GetOutput() is the dense one.)
-   */
-  vtkBrumeSparseVolume* GetSparseOutput();
-
-  vtkTypeBool ProcessRequest(vtkInformation*,
-    vtkInformationVector**,
-    vtkInformationVector*) override;
-
 protected:
   vtkBrumeFieldSource();
   ~vtkBrumeFieldSource() override;
 
-  /**
-   * The field of the present settings. Throws std::invalid_argument where they make none.
-   */
-  virtual std::shared_ptr<const brume::Field> MakeField() = 0;
+  void DescribeTime(vtkInformation* info) override;
+  double GetMoment(vtkInformation* info) override;
 
-  /**
-   * The time of the last change of what the field is made from.
-   */
-  virtual vtkMTimeType GetFieldMTime();
-
-  int FillOutputPortInformation(int, vtkInformation*) override;
-  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
-  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
-
-  /**
-   * The field, made anew where it changed.
-   */
-  const brume::Field& GetField();
-
-  int Size = 256;
   int Seed = 1;
   double Time = 0.0;
   double StartTime = 0.0;
   double EndTime = 100.0;
   int NumberOfTimeSteps = 101;
-  bool Sparse = false;
 
 private:
   vtkBrumeFieldSource(const vtkBrumeFieldSource&) = delete;
   void operator=(const vtkBrumeFieldSource&) = delete;
-
-  std::shared_ptr<const brume::Field> Kept; // from piece to piece
-  vtkMTimeType KeptTime = 0;                // what GetFieldMTime() was when it was made
 };
 
 #endif

@@ -100,6 +100,13 @@ vtkImageData* vtkBrumeFogSource::UpdateHeightMap()
   int port = 0;
   vtkAlgorithm* producer = this->GetInputAlgorithm(0, 0, port);
   producer->UpdateInformation();
+  vtkInformation* info = producer->GetOutputInformation(port);
+  if (info->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()) > 1)
+  {
+    throw std::invalid_argument(
+      "the height map changes over time, and the ground of a fog bank does "
+      "not: take one moment of it (vtkForceTime)");
+  }
   producer->UpdateWholeExtent();
   return vtkImageData::SafeDownCast(producer->GetOutputDataObject(port));
 }

@@ -13,7 +13,7 @@
  * standing where its origin and spacing place them; beyond its ends the ground goes on level. With
  * no input the source makes hills of its own (height_map.h, valley_terrain), of Relief and Width;
  * GetGround() hands them out. The map is brought up to date when the volume's extent is asked for,
- * which follows from it.
+ * which follows from it. It has one moment: a map with several TIME_STEPS is an error.
  *
  * @sa vtkBrumeCloudSource vtkBrumeFieldSource vtkBrumeFog
  */
@@ -185,7 +185,8 @@ private:
   vtkBrumeFogSource(const vtkBrumeFogSource&) = delete;
   void operator=(const vtkBrumeFogSource&) = delete;
 
-  // The input, brought up to date; null where there is none.
+  // The input, brought up to date; null where there is none. Throws std::invalid_argument where it
+  // has several moments.
   vtkImageData* UpdateHeightMap();
 };
 

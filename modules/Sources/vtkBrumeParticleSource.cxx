@@ -66,42 +66,28 @@ std::shared_ptr<const brume::Field> vtkBrumeParticleSource::MakeField()
     1.5 * (this->Width / this->Size));
 }
 
-int vtkBrumeParticleSource::RequestData(vtkInformation* request,
-  vtkInformationVector** inputs,
-  vtkInformationVector* outputs)
+bool vtkBrumeParticleSource::Prepare(const brume::Field& field, double time)
 {
-  vtkInformation* info = outputs->GetInformationObject(0);
-  vtkImageData* image = vtkImageData::GetData(info);
-  if (!image)
-  {
-    return this->Superclass::RequestData(request, inputs, outputs); // sparse
-  }
+  return static_cast<const brume::ParticleField&>(field).prepare(
+    time, brume::progress_of(this, 0.0, this->GetPreparedShare()));
+}
+
+double vtkBrumeParticleSource::GetPreparedShare() const
+{
+  return 0.5;
+}
+
+bool vtkBrumeParticleSource::FillImage(vtkImageData* image,
+  const brume::Field& field,
+  const brume::Lattice& grid,
+  double time)
+{
   // The same voxels as by the field, gathered faster.
-  try
-  {
-    const double time = brume::requested_time(info, this->Time);
-    const auto& field = static_cast<const brume::ParticleField&>(this->GetField());
-    const brume::Lattice grid = brume::grid_over(field.bounds(), this->Size);
-    this->AllocateOutputData(image, info);
-    image->GetPointData()->GetScalars()->SetName("density");
-    image->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
-    const brume::Extent block = brume::extent_of(image->GetExtent());
-    if (block.voxels() > 0 && !brume::deposit(*field.particles(time),
-                                grid,
-                                block,
-                                static_cast<float*>(image->GetScalarPointer()),
-                                brume::progress_of(this)))
-    {
-      image->Initialize();
-    }
-  }
-  catch (const std::exception& problem)
-  {
-    image->Initialize();
-    vtkErrorMacro("the particles could not be made: " << problem.what());
-    return 0;
-  }
-  return 1;
+  return brume::deposit(*static_cast<const brume::ParticleField&>(field).particles(time),
+    grid,
+    brume::extent_of(image->GetExtent()),
+    static_cast<float*>(image->GetScalarPointer()),
+    brume::progress_of(this, this->GetPreparedShare()));
 }
 
 void vtkBrumeParticleSource::PrintSelf(ostream& os, vtkIndent indent)

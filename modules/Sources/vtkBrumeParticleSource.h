@@ -43,7 +43,8 @@ public:
   ///@{
   /**
    * How many emitters there are. One stands in the middle of x and y, more stand evenly on a ring
-   * with a radius of a quarter of the Width; all of them 0.1 Width above the box's floor. Default 1, range 1 to 64; outside it the nearest end.
+   * with a radius of a quarter of the Width; all of them 0.1 Width above the box's floor. Default
+   * 1, range 1 to 64; outside it the nearest end.
    */
   vtkSetClampMacro(NumberOfEmitters, int, 1, 64);
   vtkGetMacro(NumberOfEmitters, int);
@@ -135,7 +136,12 @@ protected:
   ~vtkBrumeParticleSource() override;
 
   std::shared_ptr<const brume::Field> MakeField() override;
-  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  bool Prepare(const brume::Field& field, double time) override;
+  double GetPreparedShare() const override;
+  bool FillImage(vtkImageData* image,
+    const brume::Field& field,
+    const brume::Lattice& grid,
+    double time) override;
 
   double Width = 6.0;
   int NumberOfEmitters = 1;

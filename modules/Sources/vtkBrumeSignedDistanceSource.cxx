@@ -1,25 +1,22 @@
 #include "vtkBrumeSignedDistanceSource.h"
 
-#include "vtkBrumeSourceTools.h"
+#include "vtkBrumeSparseVolume.h"
 
+#include "data-generators/sampling.h"
 #include "data-generators/shape_text.h"
 
-#include "vtkDataArray.h"
-#include "vtkImageData.h"
-#include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointData.h"
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
+#include <limits>
 #include <stdexcept>
 
 vtkStandardNewMacro(vtkBrumeSignedDistanceSource);
 
 vtkBrumeSignedDistanceSource::vtkBrumeSignedDistanceSource()
 {
-  this->SetNumberOfInputPorts(0);
+  this->Size = 128;
 }
 
 vtkBrumeSignedDistanceSource::~vtkBrumeSignedDistanceSource() = default;
@@ -34,7 +31,7 @@ void vtkBrumeSignedDistanceSource::SetDescription(const char* text)
   }
 }
 
-brume::Lattice vtkBrumeSignedDistanceSource::GetGrid(const brume::Shape& shape) const
+brume::Box vtkBrumeSignedDistanceSource::GetBox(const brume::Shape& shape) const
 {
   const double* b = this->Bounds;
   brume::Box box{ { b[0], b[2], b[4] }, { b[1], b[3], b[5] } };
@@ -57,61 +54,42 @@ brume::Lattice vtkBrumeSignedDistanceSource::GetGrid(const brume::Shape& shape) 
     box.lower -= 0.05 * longest;
     box.upper += 0.05 * longest;
   }
-  return brume::grid_over(box, this->Size);
+  return box;
 }
 
-int vtkBrumeSignedDistanceSource::RequestInformation(vtkInformation*,
-  vtkInformationVector**,
-  vtkInformationVector* outputs)
+bool vtkBrumeSignedDistanceSource::IsBand() const
 {
-  try
-  {
-    const brume::Shape shape = brume::shape_from_text(this->Description);
-    brume::describe_grid(this->GetGrid(shape), VTK_FLOAT, outputs->GetInformationObject(0));
-  }
-  catch (const std::exception& problem)
-  {
-    vtkErrorMacro("the description and the bounds make no volume: " << problem.what());
-    return 0;
-  }
-  return 1;
+  return this->Sparse && this->Quantity == Distance;
 }
 
-int vtkBrumeSignedDistanceSource::RequestData(vtkInformation*,
-  vtkInformationVector**,
-  vtkInformationVector* outputs)
+std::shared_ptr<const brume::Field> vtkBrumeSignedDistanceSource::MakeField()
 {
-  vtkInformation* info = outputs->GetInformationObject(0);
-  vtkImageData* image = vtkImageData::GetData(info);
-  try
-  {
-    const brume::Shape shape = brume::shape_from_text(this->Description);
-    const brume::Lattice grid = this->GetGrid(shape);
-    const bool density = this->Quantity == Density;
-    const brume::ShapeField field(shape,
-      {},
-      density ? brume::ShapeField::Quantity::density : brume::ShapeField::Quantity::distance,
-      this->EdgeWidth * grid.spacing.x);
-    this->AllocateOutputData(image, info);
-    image->GetPointData()->GetScalars()->SetName(density ? "density" : "distance");
-    const brume::Extent block = brume::extent_of(image->GetExtent());
-    if (block.voxels() > 0 && !brume::sample(field,
-                                0.0,
-                                grid,
-                                block,
-                                static_cast<float*>(image->GetScalarPointer()),
-                                brume::progress_of(this)))
-    {
-      image->Initialize();
-    }
-  }
-  catch (const std::exception& problem)
-  {
-    image->Initialize();
-    vtkErrorMacro("the shape could not be sampled: " << problem.what());
-    return 0;
-  }
-  return 1;
+  using brume::ShapeField;
+  const brume::Shape shape = brume::shape_from_text(this->Description);
+  const brume::Box box = this->GetBox(shape);
+  const double spacing = brume::grid_over(box, this->Size).spacing.x;
+  this->Band = static_cast<float>(this->BandWidth * spacing);
+  return std::make_shared<const ShapeField>(shape,
+    box,
+    this->Quantity == Density ? ShapeField::Quantity::density : ShapeField::Quantity::distance,
+    this->EdgeWidth * spacing,
+    this->IsBand() ? double(this->Band) : std::numeric_limits<double>::infinity());
+}
+
+const char* vtkBrumeSignedDistanceSource::GetFieldName() const
+{
+  return this->Quantity == Density ? "density" : "distance";
+}
+
+float vtkBrumeSignedDistanceSource::GetFieldBackground() const
+{
+  return this->IsBand() ? this->Band : 0.0f;
+}
+
+int vtkBrumeSignedDistanceSource::GetFieldGridClass() const
+{
+  return this->IsBand() ? vtkBrumeSparseVolume::GridClassLevelSet
+                        : vtkBrumeSparseVolume::GridClassFogVolume;
 }
 
 void vtkBrumeSignedDistanceSource::PrintSelf(ostream& os, vtkIndent indent)
@@ -119,8 +97,8 @@ void vtkBrumeSignedDistanceSource::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Description: " << this->Description << "\n";
   os << indent << "Quantity: " << (this->Quantity == Density ? "Density" : "Distance") << "\n";
-  os << indent << "Size: " << this->Size << " voxels\n";
   os << indent << "EdgeWidth: " << this->EdgeWidth << " voxels\n";
+  os << indent << "BandWidth: " << this->BandWidth << " voxels\n";
   os << indent << "Bounds:";
   for (const double b : this->Bounds)
   {

@@ -6,19 +6,17 @@
 
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
-#include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 
 #include <cstdint>
-#include <exception>
 
 vtkStandardNewMacro(vtkBrumeSmokeSource);
 
 vtkBrumeSmokeSource::vtkBrumeSmokeSource()
 {
-  this->SetNumberOfInputPorts(0);
+  this->EndTime = 10.0;
 }
 
 vtkBrumeSmokeSource::~vtkBrumeSmokeSource() = default;
@@ -34,85 +32,63 @@ brume::PlumeOptions vtkBrumeSmokeSource::GetOptions() const
   return options;
 }
 
-int vtkBrumeSmokeSource::RequestInformation(vtkInformation*,
-  vtkInformationVector**,
-  vtkInformationVector* outputs)
+std::shared_ptr<const brume::Field> vtkBrumeSmokeSource::MakeField()
 {
-  try
+  auto plume = std::make_shared<const brume::Plume>(this->GetOptions());
+  if (this->IsTemperature())
   {
-    const brume::Plume plume(this->GetOptions());
-    brume::describe_grid(
-      brume::grid_over(plume.bounds(), this->Size), VTK_FLOAT, outputs->GetInformationObject(0));
-    brume::describe_time(
-      this->StartTime, this->EndTime, this->NumberOfTimeSteps, outputs->GetInformationObject(0));
+    return std::make_shared<const brume::PlumeTemperature>(plume);
   }
-  catch (const std::exception& problem)
-  {
-    vtkErrorMacro("the settings make no smoke: " << problem.what());
-    return 0;
-  }
-  return 1;
+  return plume;
 }
 
-int vtkBrumeSmokeSource::RequestData(vtkInformation*,
-  vtkInformationVector**,
-  vtkInformationVector* outputs)
+bool vtkBrumeSmokeSource::IsTemperature() const
 {
-  vtkInformation* info = outputs->GetInformationObject(0);
-  vtkImageData* image = vtkImageData::GetData(info);
-  try
+  return this->Sparse && this->SparseQuantity == Temperature;
+}
+
+const char* vtkBrumeSmokeSource::GetFieldName() const
+{
+  return this->IsTemperature() ? "temperature" : "density";
+}
+
+float vtkBrumeSmokeSource::GetFieldBackground() const
+{
+  return this->IsTemperature() ? static_cast<float>(this->AirTemperature) : 0.0f;
+}
+
+bool vtkBrumeSmokeSource::FillImage(vtkImageData* image,
+  const brume::Field& field,
+  const brume::Lattice& grid,
+  double time)
+{
+  const auto& plume = static_cast<const brume::Plume&>(field); // dense: never the temperature alone
+  const brume::Extent block = brume::extent_of(image->GetExtent());
+  vtkNew<vtkFloatArray> temperatures;
+  temperatures->SetName("temperature");
+  temperatures->SetNumberOfTuples(static_cast<vtkIdType>(block.voxels()));
+  image->GetPointData()->AddArray(temperatures);
+  float* density = static_cast<float*>(image->GetScalarPointer());
+  float* temperature = temperatures->GetPointer(0);
+  const auto row = [&](int j, int k, std::size_t offset)
   {
-    const brume::Plume plume(this->GetOptions());
-    const brume::Lattice grid = brume::grid_over(plume.bounds(), this->Size);
-    this->AllocateOutputData(image, info);
-    image->GetPointData()->GetScalars()->SetName("density");
-    const brume::Extent block = brume::extent_of(image->GetExtent());
-    if (block.voxels() == 0)
+    for (int i = block.first.x; i <= block.last.x; ++i, ++offset)
     {
-      return 1;
+      const brume::Plume::State state = plume.at(grid.place(i, j, k), time);
+      density[offset] = state.density;
+      temperature[offset] = state.temperature;
     }
-    const double time = brume::requested_time(info, this->Time);
-    image->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
-    vtkNew<vtkFloatArray> temperatures;
-    temperatures->SetName("temperature");
-    temperatures->SetNumberOfTuples(static_cast<vtkIdType>(block.voxels()));
-    image->GetPointData()->AddArray(temperatures);
-    float* density = static_cast<float*>(image->GetScalarPointer());
-    float* temperature = temperatures->GetPointer(0);
-    const auto row = [&](int j, int k, std::size_t offset)
-    {
-      for (int i = block.first.x; i <= block.last.x; ++i, ++offset)
-      {
-        const brume::Plume::State state = plume.at(grid.place(i, j, k), time);
-        density[offset] = state.density;
-        temperature[offset] = state.temperature;
-      }
-    };
-    if (!brume::for_each_row(block, row, brume::progress_of(this)))
-    {
-      image->Initialize();
-    }
-  }
-  catch (const std::exception& problem)
-  {
-    image->Initialize();
-    vtkErrorMacro("the smoke could not be made: " << problem.what());
-    return 0;
-  }
-  return 1;
+  };
+  return brume::for_each_row(block, row, brume::progress_of(this));
 }
 
 void vtkBrumeSmokeSource::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Size: " << this->Size << " voxels\n";
-  os << indent << "Seed: " << this->Seed << "\n";
-  os << indent << "Time: " << this->Time << " s\n";
-  os << indent << "StartTime: " << this->StartTime << " s\n";
-  os << indent << "EndTime: " << this->EndTime << " s\n";
-  os << indent << "NumberOfTimeSteps: " << this->NumberOfTimeSteps << "\n";
   os << indent << "Width: " << this->Width << " m\n";
   os << indent << "Rise: " << this->Rise << " m/s\n";
   os << indent << "AirTemperature: " << this->AirTemperature << " K\n";
   os << indent << "SourceTemperature: " << this->SourceTemperature << " K\n";
+  os << indent
+     << "SparseQuantity: " << (this->SparseQuantity == Density ? "Density" : "Temperature") << "\n";
 }

@@ -2,79 +2,35 @@
  * @class   vtkBrumeSmokeSource
  * @brief   a plume of hot smoke: density and temperature
  *
- * Gives a vtkImageData with two arrays of floats on its points: "density", the scalars, in [0, 1]
+ * Dense, the output has two arrays of floats on its points: "density", the scalars, in [0, 1]
  * without a unit (multiply by an extinction, 4 to 20 per metre for the default width), and
- * "temperature" in kelvin. vtkBrumeMedium makes it glow by both.
+ * "temperature" in kelvin. vtkBrumeMedium makes it glow by both. A sparse volume holds one of them,
+ * SparseQuantity says which. Size, seed, time steps and sparse output are the superclass's, with
+ * another default: time steps from 0 to 10 s.
  *
  * World units are metres: the volume fills a box of Width x Width x 2 Width, x and y around 0, z up
  * from 0. Nothing of the smoke comes nearer to the box's faces than 0.02 Width. The formula and its
  * sources: data-generators/plume.h.
- *
- * The source makes the pieces that it is asked for; together they equal the whole, to the bit. The
- * same settings give the same bytes on every machine and with any number of threads. It reports
- * progress, and stops soon after AbortExecute is set: the output is then empty, and the next update
- * starts over. A setting that is not a number is an error, and gives an empty output.
  *
  * @sa vtkBrumeCloudSource
  */
 #ifndef vtkBrumeSmokeSource_h
 #define vtkBrumeSmokeSource_h
 
+#include "vtkBrumeFieldSource.h"
 #include "vtkBrumeSourcesModule.h" // for the export macro
-#include "vtkImageAlgorithm.h"
 
 namespace brume
 {
 struct PlumeOptions;
 }
 
-class VTKBRUMESOURCES_EXPORT vtkBrumeSmokeSource : public vtkImageAlgorithm
+class VTKBRUMESOURCES_EXPORT vtkBrumeSmokeSource : public vtkBrumeFieldSource
 {
 public:
   static vtkBrumeSmokeSource* New();
-  vtkTypeMacro(vtkBrumeSmokeSource, vtkImageAlgorithm);
+  vtkTypeMacro(vtkBrumeSmokeSource, vtkBrumeFieldSource);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  ///@{
-  /**
-   * Voxels along the longest side of the volume (z). Voxels are cubes. Default 256, range 2 to
-   * 4096; outside it the nearest end.
-   */
-  vtkSetClampMacro(Size, int, 2, 4096);
-  vtkGetMacro(Size, int);
-  ///@}
-
-  ///@{
-  /**
-   * Which plume. Default 1, any value.
-   */
-  vtkSetMacro(Seed, int);
-  vtkGetMacro(Seed, int);
-  ///@}
-
-  ///@{
-  /**
-   * The moment that is made where the pipeline asks for none (UPDATE_TIME_STEP), in seconds: the
-   * turbulence has risen for so long. Default 0, any finite value.
-   */
-  vtkSetMacro(Time, double);
-  vtkGetMacro(Time, double);
-  ///@}
-
-  ///@{
-  /**
-   * The moments that the pipeline is told of (TIME_STEPS): so many, evenly from StartTime to
-   * EndTime, in seconds. Any other moment can be asked for, too. Default 101 from 0 to 10; the
-   * number from 1 to 1e6, outside it the nearest end. An EndTime that is not after StartTime leaves
-   * StartTime alone.
-   */
-  vtkSetMacro(StartTime, double);
-  vtkGetMacro(StartTime, double);
-  vtkSetMacro(EndTime, double);
-  vtkGetMacro(EndTime, double);
-  vtkSetClampMacro(NumberOfTimeSteps, int, 1, 1000000);
-  vtkGetMacro(NumberOfTimeSteps, int);
-  ///@}
 
   ///@{
   /**
@@ -104,29 +60,47 @@ public:
   vtkGetMacro(SourceTemperature, double);
   ///@}
 
+  enum Quantities
+  {
+    Density = 0,
+    Temperature = 1 ///< kelvin; its background is AirTemperature
+  };
+
+  ///@{
+  /**
+   * What a sparse volume holds; a dense one holds both. Default Density; other values become the
+   * nearest.
+   */
+  vtkSetClampMacro(SparseQuantity, int, Density, Temperature);
+  vtkGetMacro(SparseQuantity, int);
+  void SetSparseQuantityToDensity() { this->SetSparseQuantity(Density); }
+  void SetSparseQuantityToTemperature() { this->SetSparseQuantity(Temperature); }
+  ///@}
+
 protected:
   vtkBrumeSmokeSource();
   ~vtkBrumeSmokeSource() override;
 
-  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
-  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  std::shared_ptr<const brume::Field> MakeField() override;
+  const char* GetFieldName() const override;
+  float GetFieldBackground() const override;
+  bool FillImage(vtkImageData* image,
+    const brume::Field& field,
+    const brume::Lattice& grid,
+    double time) override;
 
-  int Size = 256;
-  int Seed = 1;
-  double Time = 0.0;
-  double StartTime = 0.0;
-  double EndTime = 10.0;
-  int NumberOfTimeSteps = 101;
   double Width = 4.0;
   double Rise = 1.2;
   double AirTemperature = 300.0;
   double SourceTemperature = 1900.0;
+  int SparseQuantity = Density;
 
 private:
   vtkBrumeSmokeSource(const vtkBrumeSmokeSource&) = delete;
   void operator=(const vtkBrumeSmokeSource&) = delete;
 
   brume::PlumeOptions GetOptions() const;
+  bool IsTemperature() const;
 };
 
 #endif

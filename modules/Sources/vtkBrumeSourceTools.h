@@ -64,12 +64,13 @@ inline Extent extent_of(const int e[6])
   return { { e[0], e[2], e[4] }, { e[1], e[3], e[5] } };
 }
 
-/// Passes progress to VTK's observers, and their wish to abort back.
-inline Progress progress_of(vtkAlgorithm* algorithm)
+/// Passes progress to VTK's observers, as the part of the work from `from` to `to`, and their wish to
+/// abort back.
+inline Progress progress_of(vtkAlgorithm* algorithm, double from = 0.0, double to = 1.0)
 {
-  return [algorithm](double done)
+  return [algorithm, from, to](double done)
   {
-    algorithm->UpdateProgress(done);
+    algorithm->UpdateProgress(from + (to - from) * done);
     return !algorithm->GetAbortExecute();
   };
 }

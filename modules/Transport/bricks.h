@@ -19,7 +19,7 @@ namespace brume
 struct BrickRanges
 {
   /// log2 of the edge: 3 for dense grids. Sparse ones in a wide box take larger bricks, so that
-  /// there are at most 2¹⁵, or twice as many as the grid has bricks of its own if that is more.
+  /// there are at most 2¹⁵, or twice the grid's own bricks (a tile counts for up to 64) if that is more.
   int shift = 3;
   int edge() const { return 1 << shift; }
 

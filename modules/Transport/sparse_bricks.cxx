@@ -23,6 +23,10 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 /// The least number of ranges that is worth to be made.
 constexpr std::size_t few_ranges = std::size_t(1) << 15;
 
+/// So many bricks a tile counts for at the most, when the number of ranges is settled: of a wide one
+/// there is little to tell, and a file may hold one of a billion bricks.
+constexpr std::size_t most_of_tile = 64;
+
 /// Range of finite values; lower > upper where there are none.
 struct Range
 {
@@ -267,7 +271,7 @@ BrickRanges measure_sparse_bricks(const SparseVoxels& voxels, int threads)
   std::size_t bricks = voxels.places().size();
   for (const BrickBox& box : voxels.tiles())
   {
-    bricks += box.size();
+    bricks += std::min(box.size(), most_of_tile);
   }
   const std::size_t most = std::max(few_ranges, 2 * bricks);
   BrickRanges result;

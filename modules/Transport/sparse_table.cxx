@@ -6,6 +6,7 @@
 #include <atomic>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 namespace brume
 {
@@ -16,8 +17,10 @@ namespace
 constexpr int most_page_shift = 6;
 constexpr std::size_t most_entries = std::numeric_limits<std::int32_t>::max();
 constexpr std::size_t never = std::numeric_limits<std::size_t>::max();
-/// Pages at the faces of boxes, or cubes in them, that are looked at to try one shape of a table.
-constexpr std::size_t most_tried = std::size_t(1) << 24;
+/// Cubes in boxes that are looked at to try one shape of a table: so many, or so many for each brick
+/// and box if that is more. Time and memory then grow with what there is, not with how wide it is.
+constexpr std::size_t few_tried = std::size_t(1) << 20;
+constexpr std::size_t tried_for_each = 4;
 
 /// Every third bit, from the lowest on, gets a bit of a number of 21 bits.
 std::uint64_t spread(std::uint64_t x)
@@ -66,7 +69,8 @@ void for_each_cube(const BrickBox& box, int shift, const Visit& visit)
   }
 }
 
-std::size_t touched_cubes(const BrickBox& box, int shift)
+/// The box in cubes of (2^shift)³ bricks: those that it touches.
+BrickBox touched(const BrickBox& box, int shift)
 {
   BrickBox cubes;
   for (int axis = 0; axis < 3; ++axis)
@@ -74,7 +78,46 @@ std::size_t touched_cubes(const BrickBox& box, int shift)
     cubes.first[axis] = box.first[axis] >> shift;
     cubes.last[axis] = box.last[axis] >> shift;
   }
-  return cubes.size();
+  return cubes;
+}
+
+std::size_t touched_cubes(const BrickBox& box, int shift)
+{
+  return touched(box, shift).size();
+}
+
+/// Of these cubes the outermost, which alone can be held in part: how many, and each of them.
+std::size_t outermost_cubes(const BrickBox& box, int shift)
+{
+  const BrickBox cubes = touched(box, shift);
+  std::size_t inside = 1;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    inside *= static_cast<std::size_t>(std::max(cubes.last[axis] - cubes.first[axis] - 1, 0));
+  }
+  return cubes.size() - inside;
+}
+
+template <class Visit>
+void for_each_outermost_cube(const BrickBox& box, int shift, const Visit& visit)
+{
+  const BrickBox cubes = touched(box, shift);
+  const auto at_end = [&](const BrickPlace& cube, int axis)
+  { return cube[axis] == cubes.first[axis] || cube[axis] == cubes.last[axis]; };
+  BrickPlace cube;
+  for (cube[2] = cubes.first[2]; cube[2] <= cubes.last[2]; ++cube[2])
+  {
+    for (cube[1] = cubes.first[1]; cube[1] <= cubes.last[1]; ++cube[1])
+    {
+      const bool whole_row = at_end(cube, 2) || at_end(cube, 1);
+      const std::int32_t step =
+        whole_row ? 1 : std::max(cubes.last[0] - cubes.first[0], std::int32_t{ 1 });
+      for (cube[0] = cubes.first[0]; cube[0] <= cubes.last[0]; cube[0] += step)
+      {
+        visit(cube);
+      }
+    }
+  }
 }
 
 /// Whether the box holds all of the cube.
@@ -105,6 +148,7 @@ public:
     const std::vector<BrickBox>& boxes)
     : Dims(dims)
     , Boxes(boxes)
+    , MostTried(std::max(few_tried, tried_for_each * (places.size() + boxes.size())))
     , Numbers(places.size())
   {
     tbb::parallel_for(
@@ -145,11 +189,11 @@ public:
       {
         break;
       }
-      if ((tried += touched_cubes(box, shift)) > most_tried)
+      if ((tried += outermost_cubes(box, shift)) > this->MostTried)
       {
         return false;
       }
-      for_each_cube(box,
+      for_each_outermost_cube(box,
         shift,
         [&](const BrickPlace& page)
         {
@@ -181,7 +225,7 @@ public:
     std::size_t tried = 0;
     for (const BrickBox& box : this->Boxes)
     {
-      if ((tried += touched_cubes(box, shift)) > most_tried)
+      if ((tried += touched_cubes(box, shift)) > this->MostTried)
       {
         return false;
       }
@@ -230,12 +274,14 @@ private:
 
   const std::array<std::int32_t, 3>& Dims;
   const std::vector<BrickBox>& Boxes;
+  std::size_t MostTried;
   std::vector<std::uint64_t> Numbers; ///< of the bricks, rising
   std::vector<std::int32_t> Uniform;
 };
 
 /// Sets the shape that takes the least memory; throws where none is possible.
-void choose_shape(const Contents& contents, std::size_t pool_bytes, SparseTable& table)
+void choose_shape(
+  const Contents& contents, std::size_t pool_bytes, std::size_t most_bytes, SparseTable& table)
 {
   std::size_t dense = never;
   for (int k = 0; k <= most_page_shift; ++k)
@@ -248,11 +294,12 @@ void choose_shape(const Contents& contents, std::size_t pool_bytes, SparseTable&
     }
   }
   const std::size_t worth_it = pool_bytes / 32 / sizeof(std::int32_t);
-  if (dense <= worth_it)
+  const std::size_t affordable = most_bytes / sizeof(std::int32_t);
+  if (dense <= std::min(worth_it, affordable))
   {
     return;
   }
-  std::size_t least = dense == never ? never : dense - worth_it;
+  std::size_t least = dense == never || dense > affordable ? never : dense - worth_it;
   for (int k = 2; k <= 4; ++k)
   {
     for (int d = 2; d <= most_page_shift; ++d)
@@ -266,9 +313,15 @@ void choose_shape(const Contents& contents, std::size_t pool_bytes, SparseTable&
       }
     }
   }
-  if (dense == never && least == never)
+  const std::size_t entries = table.directory_shift > 0 ? least : dense;
+  if (entries == never)
   {
     throw std::length_error("the sparse grid's table would have more than 2^31 entries");
+  }
+  if (entries > affordable)
+  {
+    throw std::length_error("the sparse grid's table would take " +
+      std::to_string(entries / (std::size_t(1) << 18)) + " MiB");
   }
 }
 
@@ -290,10 +343,11 @@ SparseTable::SparseTable(const std::array<std::int32_t, 3>& dims,
   const std::vector<BrickPlace>& places,
   std::int32_t first_slot,
   const std::vector<BrickBox>& boxes,
-  std::size_t pool_bytes)
+  std::size_t pool_bytes,
+  std::size_t most_bytes)
 {
   const Contents contents(dims, places, boxes);
-  choose_shape(contents, pool_bytes, *this);
+  choose_shape(contents, pool_bytes, most_bytes, *this);
   const int k = page_shift;
   const int d = directory_shift;
   const int top_shift = k + d;

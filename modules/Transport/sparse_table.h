@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace brume
@@ -69,12 +70,13 @@ struct SparseTable
   /// `places` rise in Morton's order. `pool_bytes` is what the bricks themselves take: a directory,
   /// which kernels pay with a read more, is made only where it saves 1/32 of that.
   /// Throws std::invalid_argument where two bricks or boxes overlap, std::length_error where the
-  /// table would need more than 2³¹ entries.
+  /// table would need more than 2³¹ entries, or take more than `most_bytes`.
   SparseTable(const std::array<std::int32_t, 3>& dims,
     const std::vector<BrickPlace>& places,
     std::int32_t first_slot,
     const std::vector<BrickBox>& boxes,
-    std::size_t pool_bytes);
+    std::size_t pool_bytes,
+    std::size_t most_bytes = std::numeric_limits<std::size_t>::max());
 
   /// The slot at coordinates from 0 to dims − 1.
   std::int32_t slot(std::int32_t x, std::int32_t y, std::int32_t z) const;

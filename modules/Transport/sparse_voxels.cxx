@@ -18,6 +18,7 @@
 #include <limits>
 #include <new>
 #include <stdexcept>
+#include <string>
 
 namespace brume
 {
@@ -72,7 +73,8 @@ SparseVoxels::SparseVoxels(VoxelType type,
   double background,
   const SparseTopology& topology,
   const Fill& fill,
-  int threads)
+  int threads,
+  std::size_t most_bytes)
   : Type(type)
   , Background(background)
 {
@@ -82,6 +84,13 @@ SparseVoxels::SparseVoxels(VoxelType type,
   if (count + this->TileSlots + 1 > static_cast<std::size_t>(std::numeric_limits<int>::max()))
   {
     throw std::length_error("the sparse grid has more than 2^31 bricks");
+  }
+  const std::size_t pool_bytes =
+    (count + this->TileSlots + 1) * static_cast<std::size_t>(brick_voxels) * size_of(type);
+  if (pool_bytes > most_bytes)
+  {
+    throw std::length_error(
+      "the sparse grid would take " + std::to_string(pool_bytes >> 20) + " MiB");
   }
   tbb::task_arena arena(threads > 0 ? threads : tbb::info::default_concurrency());
   arena.execute(
@@ -123,7 +132,8 @@ SparseVoxels::SparseVoxels(VoxelType type,
         this->Places,
         static_cast<std::int32_t>(1 + this->TileSlots),
         this->Tiles,
-        this->PoolBytes);
+        this->PoolBytes,
+        most_bytes - std::min(pool_bytes, most_bytes));
 
       this->fill_constant(0, background);
       for (std::size_t i = 0; i < values.size(); ++i)

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -67,12 +68,14 @@ public:
   /// Makes the table and calls `fill` for each brick, on so many threads (0: as many as the machine
   /// has processors). Values of tiles and the background are rounded to the type.
   /// Throws std::invalid_argument for a topology that is empty, overlaps itself or is wider than
-  /// most_bricks, std::length_error for more than 2³¹ bricks or table entries.
+  /// most_bricks, std::length_error for more than 2³¹ bricks or table entries, or for more than
+  /// `most_bytes` of pool and table.
   SparseVoxels(VoxelType type,
     double background,
     const SparseTopology& topology,
     const Fill& fill,
-    int threads = 0);
+    int threads = 0,
+    std::size_t most_bytes = std::numeric_limits<std::size_t>::max());
   ~SparseVoxels();
   SparseVoxels(const SparseVoxels&) = delete;
   SparseVoxels& operator=(const SparseVoxels&) = delete;

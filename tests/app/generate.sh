@@ -7,6 +7,9 @@ expect_success
 for kind in cumulus cirrus valley-fog head-ct torso-ct smoke particles shape checker; do
   expect_output "^$kind +[^ ].*"
 done
+expect_output '^cumulus .*\[--seed\] \[--time\]$'
+expect_output '^head-ct .*units \[--seed\]$'
+expect_output '^ball .*density$'
 expect_no_files
 
 case_ "--help of the subcommand and of a kind"
@@ -23,6 +26,10 @@ expect_output 'metres'
 run generate head-ct --help
 expect_success
 refuse_output '[-][-]time'
+expect_output 'It does not move: it has no time'
+run generate slab --help
+refuse_output '[-][-]seed'
+expect_output 'neither seed nor time'
 
 case_ "volumes in their formats, as info then reads them"
 run generate head-ct --size 12 --output head-ct.nii.gz --quiet
@@ -55,6 +62,21 @@ run info half.vdb --grid temperature
 expect_output '^scalar type +half$'
 expect_output '^background +300$'
 
+case_ "smoke and shapes are sparse on the way to a .vdb, with the voxels of the dense one"
+run generate smoke --size 40 --time 1 --output sparse.vdb --quiet
+run generate smoke --size 40 --time 1 --output dense.vdb --background-tolerance 1e-30 --quiet
+run convert sparse.vdb sparse.vti --quiet
+run convert dense.vdb dense.vti --quiet
+expect_success
+cmp -s sparse.vti dense.vti || fail "expected the same voxels by either way"
+run generate shape --distance --size 40 --output band.vdb --quiet
+run generate shape --distance --size 40 --output whole.vti --quiet
+run convert whole.vti cut.vdb --grid-class level-set --quiet
+run convert band.vdb band.vti --level-set distance --quiet
+run convert cut.vdb cut.vti --level-set distance --quiet
+expect_success
+cmp -s band.vti cut.vti || fail "expected the same level set by either way"
+
 case_ "the same call makes the same bytes; another seed, time or option another volume"
 run generate cumulus --size 16 --output a.nrrd --quiet
 run generate cumulus --size 16 --output b.nrrd --quiet --time 0 --seed 1
@@ -75,6 +97,23 @@ expect_only smoke.0000.nii.gz smoke.0001.nii.gz smoke.0002.nii.gz
 run generate smoke --size 12 --time 2 --output two.nii.gz --quiet
 expect_success
 cmp -s two.nii.gz smoke.0002.nii.gz || fail "expected the volume at time 2"
+
+for ending in vdb nii.gz raw tif; do
+  case_ "a series in any format is read back by a pattern: $ending"
+  run generate smoke --size 12 --time 0:2:3 --output "smoke_%04d.$ending" --quiet
+  expect_success
+  run generate smoke --size 12 --time 0:2:3 --output "dots.$ending" --quiet
+  expect_success
+  ! grep -qaE '20[0-9]{2}:[0-9]{2}:' smoke_0000.* || fail "expected no clock in the file"
+  [ "$ending" = vdb ] || # which holds an identifier of its own
+    cmp -s "smoke_0002.$ending" "dots.0002.$ending" || fail "expected the same file by both names"
+  run info "smoke_%04d.$ending" --time-step 2
+  expect_status 0
+  expect_output 'a series of 3 volumes, at 0 to 2; that at 2 is taken'
+  grep '^value range' ../out > ../last
+  run info "smoke_0002.$ending"
+  grep '^value range' ../out | cmp -s - ../last || fail "expected the values of the last file"
+done
 
 case_ "clouds and particles go into a .vdb; a distance becomes a level set"
 run generate cumulus --size 32 --output a.vdb --quiet
@@ -122,8 +161,6 @@ cumulus --output a.nrrd --time 0,1,2
 cumulus --output a.nrrd --octaves 9
 cumulus --output a.nrrd --half
 cumulus --output a.vdb --compress
-cumulus --output a.vdb --size 16 --background 0.5
-cumulus --output a.vdb --size 16 --background-tolerance 0.5
 smoke --output a.vdb --size 12 --background 1 --grid-class level-set
 shape --output a.vdb --size 12 --distance --background 1
 head-ct --output a.nrrd --time 1
@@ -149,6 +186,12 @@ run generate cumulus --size 12 --output a.nrrd --quiet
 expect_success
 run info a.nrrd
 expect_success
+
+case_ "an interrupted series keeps the files that were done, and tells how many"
+interrupted INT 2 generate smoke --size 8 --time 0:1:10000 --output a.nrrd --quiet
+expect_failure 1
+expect_error '^brume: a\.[0-9]+\.nrrd: interrupted: [1-9][0-9]* of 10000 files are written: '
+expect_file a.0000.nrrd
 
 for ending in nii.gz vdb; do
   case_ "an interrupted call leaves what was there, and nothing else: $ending"

@@ -229,6 +229,11 @@ for words in "--environment ../none.hdr" "--mesh ../none.ply" "--scene ../none.j
   expect_failure 1
   expect_error "none"
 done
+printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n' > ../sky.hdr
+head -c 128 /dev/zero | tr '\0' '\200' >> ../sky.hdr
+run render ../blob.nrrd --output a.png --albedo 1 --environment ../sky.hdr --max-memory 100
+expect_failure 1
+expect_error 'sky.hdr: .*the limit is 0\.1 kB'
 echo nonsense > ../bad.hdr
 run render ../blob.nrrd --output a.png --environment ../bad.hdr
 expect_failure 1

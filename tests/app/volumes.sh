@@ -44,6 +44,16 @@ corner() {
     '0 -4 0' '16 -4 0' '8 7 16' '3 0 1 2' > "$1"
 }
 
+# moments FILE.nrrd: a series of 3³ voxels at 2, 4 and 6 s; all voxels are 5, 6 and 7.
+moments() {
+  {
+    printf '%s\n' NRRD0005 'type: short' 'dimension: 4' 'sizes: 3 3 3 3' 'encoding: ascii' \
+      'kinds: domain domain domain time' 'spacings: 1 1 1 2' 'axis mins: 0 0 0 2' \
+      'units: "mm" "mm" "mm" "s"' ''
+    awk 'BEGIN { for (i = 0; i < 81; ++i) print 5 + int(i / 27) }'
+  } > "$1"
+}
+
 # series FILE.nii: a 4D NIfTI of 4³ voxels at two times.
 series() {
   {
@@ -57,5 +67,56 @@ series() {
     head -c 232 /dev/zero
     printf 'n+1\x00\x00\x00\x00\x00'
     head -c 128 /dev/zero | tr '\0' '\5'
+  } > "$1"
+}
+
+# le VALUE BYTES: a whole number, the lowest byte first, in printf's escapes.
+le() {
+  local i
+  for ((i = 0; i < $2; ++i)); do printf '\\x%02x' $((($1 >> (8 * i)) & 255)); done
+}
+
+# dicom_text GGGGEEEE VR TEXT: an element of a DICOM file.
+dicom_text() {
+  local text=$3
+  [ $((${#text} % 2)) = 0 ] || text+=' '
+  # shellcheck disable=SC2059
+  printf "$(le $((16#${1:0:4})) 2)$(le $((16#${1:4:4})) 2)$2$(le ${#text} 2)%s" "$text"
+}
+
+# dicom_count GGGGEEEE COUNT: the same of 16 bits.
+dicom_count() {
+  # shellcheck disable=SC2059
+  printf "$(le $((16#${1:0:4})) 2)$(le $((16#${1:4:4})) 2)US$(le 2 2)$(le "$2" 2)"
+}
+
+# dicom FILE SERIES N: a slice of a CT, 8 x 8 pixels; slice N of series 1 to 9 lies at N x 2 mm and all its
+# pixels are N Hounsfield units.
+dicom() {
+  {
+    head -c 128 /dev/zero
+    printf 'DICM\x02\x00\x10\x00UI\x14\x001.2.840.10008.1.2.1\x00'
+    dicom_text 00080018 UI "1.$2.$(($3 + 100))"
+    dicom_text 00080060 CS CT
+    dicom_text 0008103e LO "Head $2"
+    dicom_text 0020000e UI "1.$2"
+    dicom_text 00200011 IS "$2"
+    dicom_text 00200013 IS "$3"
+    dicom_text 00200032 DS "-4\\-3\\$((2 * $3))"
+    dicom_text 00200037 DS '1\0\0\0\1\0'
+    dicom_count 00280002 1
+    dicom_text 00280004 CS MONOCHROME2
+    dicom_count 00280010 8
+    dicom_count 00280011 8
+    dicom_text 00280030 DS '0.5\0.5'
+    dicom_count 00280100 16
+    dicom_count 00280101 12
+    dicom_count 00280102 11
+    dicom_count 00280103 0
+    dicom_text 00281052 DS -1024
+    dicom_text 00281053 DS 1
+    printf '\xe0\x7f\x10\x00OW\x00\x00\x80\x00\x00\x00'
+    # shellcheck disable=SC2059
+    printf "$(for _ in {1..64}; do le $((1024 + $3)) 2; done)"
   } > "$1"
 }

@@ -12,6 +12,7 @@
 using namespace hostile;
 using scan_files::deflated;
 using scan_files::nifti_header;
+using scan_files::nifti2_header;
 using scan_files::NiftiOptions;
 using scan_files::text_voxels;
 using scan_files::voxels;
@@ -29,7 +30,10 @@ TEST(HostileFiles, Nifti)
   const std::string three = voxels() + voxels() + voxels();
   NiftiOptions pair;
   pair.magic = "ni1";
+  const scan_files::Affine affine{ { 0, 2, 0, 4, 1, 0, 0, 5, 0, 0, -3, 6 } };
   try_reader({ alone("a.nii", nifti_header(plain) + voxels()),
+               alone("b.nii", nifti2_header(affine, 4) + voxels()),
+               alone("c.nii.gz", deflated(nifti2_header(affine, 4, true) + voxels(true))),
                alone("a.nii", nifti_header(turned) + voxels(true)),
                alone("a.nii", nifti_header(series) + three),
                alone("a.nii.gz", deflated(nifti_header(series) + three)),

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -201,6 +202,36 @@ TEST(Particles, AMomentIsTheSameWhateverWasAskedBefore)
   brume::ParticleCloudOptions other = few();
   other.seed = 2;
   EXPECT_FALSE(same_bytes(brume::ParticleCloud(other).particles(7.0), at_7));
+}
+
+TEST(Particles, TellHowFarTheyAreAndStop)
+{
+  brume::ParticleCloudOptions options;
+  options.emitters = { {} };
+  options.emitters[0].rate = 10000.0;
+  options.life = 2.0;
+  const brume::ParticleField field(
+    options, { glm::dvec3(-3.0, -3.0, 0.0), glm::dvec3(3.0, 3.0, 6.0) }, 0.05);
+  std::vector<double> parts;
+  EXPECT_FALSE(field.prepare(3.0,
+    [&](double done)
+    {
+      parts.push_back(done);
+      return parts.size() < 3;
+    }));
+  EXPECT_EQ(parts.size(), 3u);
+  parts.clear();
+  EXPECT_TRUE(field.prepare(3.0,
+    [&](double done)
+    {
+      parts.push_back(done);
+      return true;
+    }));
+  ASSERT_GT(parts.size(), 5u);
+  EXPECT_TRUE(std::is_sorted(parts.begin(), parts.end()));
+  EXPECT_EQ(parts.back(), 1.0);
+  EXPECT_EQ(field.particles(3.0)->size(),
+    brume::ParticleField(options, field.bounds(), 0.05).particles(3.0)->size());
 }
 
 TEST(Particles, HaveTheSameBytesEverywhere)

@@ -157,6 +157,29 @@ inline std::string nifti_header(const NiftiOptions& o)
   return h;
 }
 
+/// The 544 bytes in front of the voxels of a NIfTI-2 file, with an sform.
+inline std::string nifti2_header(const Affine& affine, std::int16_t datatype, bool swap = false)
+{
+  std::string h(544, '\0');
+  put<std::int32_t>(h, 0, 540, swap);
+  std::memcpy(&h[4], "n+2\0\r\n\032\n", 8);
+  put<std::int16_t>(h, 12, datatype, swap);
+  const std::int64_t dim[4] = { 3, Nx, Ny, Nz };
+  for (int i = 0; i < 4; ++i)
+  {
+    put<std::int64_t>(h, 16 + 8 * i, dim[i], swap);
+    put<double>(h, 104 + 8 * i, 1, swap);
+  }
+  put<std::int64_t>(h, 168, 544, swap);
+  put<std::int32_t>(h, 348, 1, swap);
+  for (int i = 0; i < 12; ++i)
+  {
+    put<double>(h, 400 + 8 * i, affine[i], swap);
+  }
+  put<std::int32_t>(h, 500, 2, swap);
+  return h;
+}
+
 inline std::array<double, 3> apply(const Affine& a, double i, double j, double k)
 {
   return { { a[0] * i + a[1] * j + a[2] * k + a[3], a[4] * i + a[5] * j + a[6] * k + a[7],

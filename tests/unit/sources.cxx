@@ -2,11 +2,13 @@
 #include "vtkBrumeCloudSource.h"
 #include "vtkBrumeFogSource.h"
 #include "vtkBrumePhantomSource.h"
+#include "vtkBrumeSignedDistanceSource.h"
 #include "vtkBrumeSmokeSource.h"
 #include "vtkBrumeSparseVolume.h"
 
 #include "Transport/sparse_voxels.h"
 #include "data-generators/head_ct.h"
+#include "data-generators/plume.h"
 #include "tests/support/source_checks.h"
 
 #include "vtkCallbackCommand.h"
@@ -14,13 +16,16 @@
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
+#include "vtkInformationVector.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
+#include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <sstream>
 #include <vector>
@@ -225,8 +230,11 @@ TEST(CloudSource, ASettingThatIsNoNumberIsAnError)
 namespace
 {
 
-/// The sparse output holds, voxel by voxel, what the dense one does.
-void expect_sparse_equals_dense(vtkBrumeFieldSource* source)
+/// The sparse output holds, voxel by voxel, what the dense one does in the array of its name, held
+/// to a band.
+void expect_sparse_equals_dense(vtkBrumeSampledSource* source,
+  double background = 0.0,
+  double band = std::numeric_limits<double>::infinity())
 {
   source->SparseOff();
   source->Update();
@@ -239,7 +247,9 @@ void expect_sparse_equals_dense(vtkBrumeFieldSource* source)
   ASSERT_TRUE(sparse);
   EXPECT_FALSE(source->GetOutput());
   ASSERT_TRUE(sparse->GetVoxels());
-  EXPECT_EQ(sparse->GetName(), "density");
+  EXPECT_EQ(sparse->GetVoxels()->background(), static_cast<float>(background));
+  vtkDataArray* values = dense->GetPointData()->GetArray(sparse->GetName().c_str());
+  ASSERT_TRUE(values) << sparse->GetName();
   const auto& origin = sparse->GetVoxels()->origin();
   int dimensions[3];
   dense->GetDimensions(dimensions);
@@ -248,8 +258,9 @@ void expect_sparse_equals_dense(vtkBrumeFieldSource* source)
     for (int j = 0; j < dimensions[1]; ++j)
       for (int i = 0; i < dimensions[0]; ++i)
       {
-        const double value = dense->GetScalarComponentAsDouble(i, j, k, 0);
-        active += value != 0.0;
+        const vtkIdType n = (vtkIdType(k) * dimensions[1] + j) * dimensions[0] + i;
+        const float value = static_cast<float>(std::clamp(values->GetTuple1(n), -band, band));
+        active += value != static_cast<float>(background);
         ASSERT_EQ(sparse->GetVoxels()->value(i - origin[0], j - origin[1], k - origin[2]), value);
       }
   EXPECT_EQ(sparse->GetActiveVoxelCount(), active);
@@ -515,6 +526,55 @@ TEST(FogSource, TakesAHeightMapAndHandsItOut)
   EXPECT_GT(errors, 0);
 }
 
+namespace
+{
+
+/// A height map that tells of so many moments.
+class MovingGround : public vtkImageAlgorithm
+{
+public:
+  static MovingGround* New();
+  int Steps = 1;
+
+protected:
+  MovingGround() { this->SetNumberOfInputPorts(0); }
+  int RequestInformation(vtkInformation*,
+    vtkInformationVector**,
+    vtkInformationVector* outputs) override
+  {
+    vtkInformation* info = outputs->GetInformationObject(0);
+    const int extent[6] = { 0, 8, 0, 8, 0, 0 };
+    const double steps[3] = { 0.0, 1.0, 2.0 };
+    info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
+    info->Set(vtkStreamingDemandDrivenPipeline::TIME_STEPS(), steps, this->Steps);
+    return 1;
+  }
+  void ExecuteDataWithInformation(vtkDataObject* output, vtkInformation* info) override
+  {
+    vtkImageData* image = this->AllocateOutputData(output, info);
+    image->GetPointData()->GetScalars()->Fill(5.0);
+    image->SetScalarComponentFromDouble(0, 0, 0, 0, 0.0);
+  }
+};
+vtkStandardNewMacro(MovingGround);
+
+}
+
+TEST(FogSource, RefusesGroundThatMoves)
+{
+  vtkNew<MovingGround> ground;
+  vtkNew<vtkBrumeFogSource> source;
+  source->SetInputConnection(ground->GetOutputPort());
+  source->SetKindToValley();
+  source->SetSize(20);
+  EXPECT_EQ(error_of(source), "");
+  ground->Steps = 3;
+  ground->Modified();
+  EXPECT_NE(error_of(source).find("the height map changes over time"), std::string::npos);
+  source->SetKindToHeight(); // which stands on no map
+  EXPECT_EQ(error_of(source), "");
+}
+
 TEST(FogSource, CanBeAbortedAndHoldsItsSettings)
 {
   vtkNew<vtkBrumeFogSource> source;
@@ -558,6 +618,70 @@ TEST(SmokeSource, PiecesEqualTheWhole)
   whole->SetSize(40);
   parts->SetSize(40);
   expect_pieces_equal_the_whole(whole, parts);
+}
+
+TEST(SmokeSource, IsSparseInDensityAndInTemperature)
+{
+  for (const double time : { 0.0, 3.7 })
+  {
+    vtkNew<vtkBrumeSmokeSource> source;
+    source->SetSize(90);
+    source->SetTime(time);
+    source->SetWidth(3.0);
+    source->SetAirTemperature(290.3);
+    expect_sparse_equals_dense(source);
+    source->SetSparseQuantityToTemperature();
+    expect_sparse_equals_dense(source, 290.3);
+    source->SparseOn();
+    source->Update();
+    EXPECT_EQ(source->GetSparseOutput()->GetName(), "temperature");
+    // Of 45 x 45 x 90 voxels fewer than half: the rest is air, and takes no brick.
+    EXPECT_LT(source->GetSparseOutput()->GetVoxels()->places().size(), 6 * 6 * 12 / 2);
+  }
+}
+
+TEST(SmokeSource, IsAirWhereItSaysSo)
+{
+  const brume::Plume plume;
+  int air = 0;
+  for (int n = 0; n < 24 * 24 * 24; ++n)
+  {
+    const glm::dvec3 lower = glm::dvec3(n % 24, n / 24 % 24, n / 576) * glm::dvec3(0.2, 0.2, 0.4) -
+                             glm::dvec3(2.4, 2.4, 0.8);
+    const brume::Box box{ lower, lower + glm::dvec3(0.2, 0.2, 0.4) };
+    if (plume.range_in(box, 2.0).upper > 0.0f)
+    {
+      continue;
+    }
+    ++air;
+    for (int m = 0; m < 27; ++m)
+    {
+      const glm::dvec3 part(m % 3 * 0.5, m / 3 % 3 * 0.5, m / 9 * 0.5);
+      ASSERT_EQ(plume.value(lower + part * (box.upper - box.lower), 2.0), 0.0f);
+    }
+  }
+  EXPECT_GT(air, 4000);
+}
+
+TEST(SignedDistanceSource, IsSparseAsADensityAndAsALevelSet)
+{
+  vtkNew<vtkBrumeSignedDistanceSource> source;
+  source->SetSize(60);
+  source->SetDescription("(smooth-unite 0.3 (sphere 1) (move 0 0 1.2 (box 0.5 0.5 0.5 0.1)))");
+  expect_sparse_equals_dense(source);
+  source->SetQuantityToDistance();
+  source->UpdateInformation();
+  const double spacing = source->GetOutputInformation(0)->Get(vtkDataObject::SPACING())[0];
+  const double band = static_cast<float>(3.0 * spacing);
+  expect_sparse_equals_dense(source, band, band);
+  source->SetBandWidth(5.0);
+  const double wider = static_cast<float>(5.0 * spacing);
+  expect_sparse_equals_dense(source, wider, wider);
+  source->SparseOn();
+  source->Update();
+  EXPECT_EQ(source->GetSparseOutput()->GetGridClass(), vtkBrumeSparseVolume::GridClassLevelSet);
+  EXPECT_FALSE(source->GetOutputInformation(0)->Has(vtkStreamingDemandDrivenPipeline::TIME_STEPS()))
+    << "shapes do not move";
 }
 
 TEST(SmokeSource, CanBeAborted)

@@ -4,6 +4,8 @@
 #include "data-generators/cumulus.h"
 #include "data-generators/sparse_sampling.h"
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -150,6 +152,31 @@ TEST(SparseSampling, LeavesOutWhatIsProvedToBeEmptyAndTilesWhatIsConstant)
   // Beyond the grid's end there is nothing.
   EXPECT_EQ(sparse_value(sparse, 61, 3, 3), 0.0);
   EXPECT_EQ(sparse_value(sparse, 60, 3, 3), 1.0);
+}
+
+TEST(SparseSampling, AHugeGridTakesNoMemoryOfItsOwn)
+{
+  /// A speck of 12 voxels' radius in 10^18 of them.
+  class Speck : public brume::Field
+  {
+  public:
+    brume::Box bounds() const override { return { glm::dvec3(0.0), glm::dvec3(1048576.0) }; }
+    float value(const glm::dvec3& p, double) const override
+    {
+      return glm::length(p - middle) < 12.0 ? 1.0f : 0.0f;
+    }
+    brume::FieldRange range_in(const brume::Box& box, double) const override
+    {
+      const glm::dvec3 nearest = glm::clamp(middle, box.lower, box.upper);
+      return { 0.0f, glm::length(nearest - middle) < 12.0 ? 1.0f : 0.0f };
+    }
+    glm::dvec3 middle{ 777777.0, 123456.0, 900001.0 };
+  };
+  const brume::SparseSample sample =
+    brume::sample_sparse(Speck(), 0.0, { glm::ivec3(1 << 20), glm::dvec3(0.0), glm::dvec3(1.0) });
+  ASSERT_TRUE(sample.voxels);
+  EXPECT_NEAR(static_cast<double>(sample.active_voxels), 4.0 / 3.0 * 3.14159 * 1728.0, 200.0);
+  EXPECT_EQ(sparse_value(sample, 777777, 123456, 900001), 1.0);
 }
 
 TEST(SparseSampling, TheBackgroundMayBeAnyNumber)

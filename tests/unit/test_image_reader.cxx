@@ -270,27 +270,25 @@ TEST(NiftiReader, HeaderAndDataInTwoFilesAndAnalyze)
 TEST(NiftiReader, Nifti2)
 {
   const Affine affine = axis_aligned()[21];
-  std::string h(544, '\0');
-  put<std::int32_t>(h, 0, 540);
-  std::memcpy(&h[4], "n+2\0\r\n\032\n", 8);
-  put<std::int16_t>(h, 12, 16); // float32
-  const std::int64_t dim[4] = { 3, Nx, Ny, Nz };
-  for (int i = 0; i < 4; ++i)
+  for (bool swap : { false, true })
   {
-    put<std::int64_t>(h, 16 + 8 * i, dim[i]);
-    put<double>(h, 104 + 8 * i, 1);
+    const std::string h = nifti2_header(affine, 16, swap);
+    const std::string here = folder();
+    const Opened plain(save(here + "a.nii", h + voxels<float>(swap)));
+    expect_places(plain, affine);
+    EXPECT_STREQ(plain.reader->GetFormat(), "NIfTI-2");
+    expect_places(Opened(save(here + "a.nii.gz", deflated(h + voxels<float>(swap)))), affine);
+    expect_error(save(here + "c.nii", h.substr(0, 500)), "cut short within its header");
+    std::string many = h;
+    put<std::int64_t>(many, 24, std::int64_t(1) << 40, swap);
+    expect_error(save(here + "d.nii", many + voxels<float>(swap)), "axis 1");
+    put<std::int64_t>(many, 24, Nx, swap);
+    put<std::int64_t>(many, 168, -1, swap);
+    expect_error(save(here + "e.nii", many + voxels<float>(swap)), "vox_offset");
   }
-  put<std::int64_t>(h, 168, 544);
-  put<std::int32_t>(h, 348, 1);
-  for (int i = 0; i < 12; ++i)
-  {
-    put<double>(h, 400 + 8 * i, affine[i]);
-  }
-  put<std::int32_t>(h, 500, 2);
-  const std::string here = folder();
-  expect_places(Opened(save(here + "a.nii", h + voxels<float>())), affine);
-  put<char>(h, 8, '\n'); // as a transfer in text mode leaves it
-  expect_error(save(here + "b.nii", h + voxels<float>()), "text mode");
+  std::string text = nifti2_header(affine, 16);
+  put<char>(text, 8, '\n'); // as a transfer in text mode leaves it
+  expect_error(save(folder() + "b.nii", text + voxels<float>()), "text mode");
 }
 
 TEST(NiftiReader, SlopeUnitsAndTypes)

@@ -388,6 +388,33 @@ TEST(OpenVDBReader, ReadsAgainAfterAnError)
   expect_same_values(reader.output(), *grid);
 }
 
+TEST(OpenVDBReader, OfALargeStreamTheGridsAreListed)
+{
+  // Without a table of contents all nodes are read to list the grids: half a million here.
+  openvdb::initialize();
+  const auto mask = openvdb::MaskGrid::create();
+  mask->setName("mask");
+  constexpr int Leaves = 80; // a side
+  for (int z = 0; z < Leaves; ++z)
+    for (int y = 0; y < Leaves; ++y)
+      for (int x = 0; x < Leaves; ++x)
+      {
+        mask->tree().touchLeaf({ 8 * x, 8 * y, 8 * z })->setValueOn(7);
+      }
+  const auto grid = fog("density");
+  const std::string path = folder + "/stream.vdb";
+  {
+    std::ofstream out(path, std::ios::binary);
+    openvdb::io::Stream(out).write(openvdb::GridCPtrVec{ mask, grid });
+  }
+  EXPECT_GT(std::filesystem::file_size(path), 32u << 20);
+  Reader read(path);
+  ASSERT_EQ(read.error(), "");
+  EXPECT_EQ(read.reader->GetNumberOfGrids(), 2);
+  EXPECT_EQ(read.output()->GetActiveVoxelCount(), static_cast<vtkIdType>(grid->activeVoxelCount()));
+  std::filesystem::remove(path);
+}
+
 TEST(SparseVolume, CopiesShareTheVoxels)
 {
   Reader reader(write(folder, "copy.vdb", { fog("density") }));

@@ -349,6 +349,32 @@ const BrickPlace everywhere[] = { { { 0, 0, 0 } },
 
 // At most 5 bytes for a voxel that is not the background, however wide the box around a compact
 // ball: alone, and with a brick 100 000 voxels away along one axis, along all three, and farther.
+// As a damaged file may have it: tiles without number, none of them where pages begin.
+TEST(SparseVoxels, TakesNoMoreThanItMay)
+{
+  SparseTopology topology;
+  for (int i = 0; i < 16; ++i)
+    for (int j = 0; j < 16; ++j)
+      for (int k = 0; k < 16; ++k)
+      {
+        topology.tiles.push_back({ { { 16 * i, 16 * j, 16 * k } },
+          { { 16 * i + 15, 16 * j + 15, 16 * k + 15 } }, double(i + j + k) });
+      }
+  const auto fill = [](std::size_t, void*) {};
+  const SparseVoxels sparse(VoxelType::Float32, -1.0, topology, fill);
+  EXPECT_EQ(sparse.value(8 + 128 * 3 + 127, 8 + 128 * 5, 8 + 128 * 7 + 4), 15.0);
+  EXPECT_EQ(sparse.value(7, 8, 8), -1.0);
+  const std::size_t all = sparse.memory_bytes();
+  EXPECT_LE(all, std::size_t(1) << 31);
+  EXPECT_NO_THROW(SparseVoxels(VoxelType::Float32, -1.0, topology, fill, 0, all));
+  EXPECT_THROW(SparseVoxels(VoxelType::Float32, -1.0, topology, fill, 0, all / 2), std::length_error);
+  // A few tiles of billions of voxels have few ranges.
+  SparseTopology wide;
+  wide.tiles.push_back({ { { 0, 0, 0 } }, { { 1023, 1023, 1023 } }, 1.0 });
+  const SparseVoxels far(VoxelType::Float32, 0.0, wide, fill);
+  EXPECT_LE(measure_bricks(far.grid()).size(), std::size_t(1) << 15);
+}
+
 TEST(SparseVoxels, MemoryOfABallDoesNotGrowWithTheBox)
 {
   const auto value = [](int i, int j, int k) { return ball(i, j, k, 150.0); };

@@ -133,6 +133,47 @@ TEST(Pictures, PlacesAndTimes)
   EXPECT_EQ(series.reader->GetOutput()->GetScalarComponentAsDouble(0, 0, 0, 0), 99);
 }
 
+TEST(Pictures, ChannelsOfHyperstacksAreComponents)
+{
+  // Pages in ImageJ's order: two channels, then three slices, then two frames.
+  const std::string here = folder();
+  std::vector<std::vector<unsigned short>> all;
+  for (int page = 0; page < 12; ++page)
+  {
+    all.emplace_back();
+    for (int n = 0; n < Nx * Ny; ++n)
+    {
+      all.back().push_back(static_cast<unsigned short>(1000 * page + n));
+    }
+  }
+  const std::string head = "ImageJ=1.53t\nimages=12\nchannels=2\nslices=3\n";
+  pictures::write(here + "a.tif", Nx, Ny, all,
+    head + "frames=2\nhyperstack=true\nmode=composite\nspacing=2\nfinterval=0.5\n", 4.f);
+  const Opened opened(here + "a.tif");
+  ASSERT_EQ(opened.error, "");
+  ASSERT_EQ(opened.image->GetNumberOfScalarComponents(), 2);
+  ASSERT_EQ(opened.image->GetDimensions()[2], 3);
+  for (int frame = 0; frame < 2; ++frame)
+  {
+    opened.reader->UpdateTimeStep(0.5 * frame);
+    ASSERT_STREQ(opened.reader->GetErrorMessage(), "");
+    for (int n = 0; n < Nx * Ny * 3; ++n)
+      for (int c = 0; c < 2; ++c)
+      {
+        const int slice = n / (Nx * Ny);
+        ASSERT_EQ(opened.reader->GetOutput()->GetPointData()->GetScalars()->GetComponent(n, c),
+          1000 * (c + 2 * (slice + 3 * frame)) + n % (Nx * Ny))
+          << "frame " << frame << ", voxel " << n << ", channel " << c;
+      }
+  }
+  pictures::write(here + "b.tif", Nx, Ny, all, "ImageJ=1.53t\nimages=12\nchannels=5\n", 4.f);
+  const Opened odd(here + "b.tif");
+  ASSERT_EQ(odd.error, "");
+  EXPECT_EQ(odd.image->GetDimensions()[2], 12);
+  EXPECT_NE(odd.messages.find("5 channels, which its 12 pages cannot be"), std::string::npos)
+    << odd.messages;
+}
+
 TEST(Pictures, ThatDoNotFit)
 {
   const std::string here = folder();

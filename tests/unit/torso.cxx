@@ -5,6 +5,7 @@
 #include "data-generators/random.h"
 #include "data-generators/torso_ct.h"
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -68,10 +69,10 @@ TEST(TorsoCT, HasItsOrgansWhereTheyBelong)
     { "stomach's air, in front", -40, 54, -58, 3, -1000, -900 },
     { "right kidney", 64, -36, -60, 4, 120, 205 },
     { "left kidney", -64, -36, -46, 4, 120, 205 },
-    { "left chamber of the heart", -36, 32, 76, 6, 290, 325 },
-    { "right atrium", 38, 24, 88, 6, 200, 225 },
-    { "descending aorta, left of the spine", -22, -32, 90, 4, 300, 325 },
-    { "lower hollow vein, on the right", 17, 2, -60, 4, 200, 225 },
+    { "left chamber of the heart", -36, 32, 76, 6, 145, 170 },
+    { "right atrium", 38, 24, 88, 6, 135, 160 },
+    { "descending aorta, left of the spine", -22, -32, 90, 4, 150, 165 },
+    { "lower hollow vein, on the right", 17, 2, -60, 4, 140, 155 },
     { "windpipe", 0, 2, 210, 3, -1000, -980 },
     { "spinal cord", 0, -72, 100, 2, 20, 60 },
     { "vertebral body", 0, -50, 110, 4, 80, 700 },
@@ -94,6 +95,49 @@ TEST(TorsoCT, HasItsOrgansWhereTheyBelong)
   EXPECT_LT(around(-70, 0, 40, 8), 90.0) << "no liver on the left";
   EXPECT_GT(around(-45, 34, 70, 6), 90.0) << "the heart's tip";
   EXPECT_LT(around(75, 34, 80, 6), -600.0) << "no heart on the right";
+}
+
+TEST(TorsoCT, IsOfOnePhase)
+{
+  // The portal venous one: blood everywhere within 40 HU, and no organ but the kidneys' rind above
+  // it.
+  const double aorta = around(-22, -32, 90, 4), hollow_vein = around(17, 2, -60, 4);
+  const brume::TorsoCT sharp({ 1, 1.0 });
+  const double portal_vein = sharp.value({ 91, 9, -15 }, 0.0), liver = around(70, 0, 0, 10);
+  const double heart = around(-36, 32, 76, 6), spleen = around(-100, -44, -14, 5);
+  for (const double blood : { aorta, hollow_vein, heart })
+  {
+    EXPECT_NEAR(blood, 155.0, 15.0);
+    EXPECT_GT(portal_vein, blood);
+    EXPECT_LT(portal_vein, blood + 40.0);
+    EXPECT_LT(liver, blood - 20.0);
+    EXPECT_LT(spleen, blood);
+  }
+  EXPECT_GT(liver, 55.0 + 45.0) << "at its height";
+}
+
+TEST(TorsoCT, HasBronchiInBothLungs)
+{
+  // From the main bronchi's ends into each part of the lungs: air within a wall.
+  const brume::TorsoCT sharp({ 1, 0.5 });
+  const glm::dvec3 ways[] = { { 0.25, 0.25, 0.95 },
+    { 0.8, 0.5, 0.2 },
+    { 0.75, -0.5, 0.3 },
+    { 0.6, 0.35, -0.75 },
+    { 0.55, -0.5, -0.7 } };
+  for (const double side : { 1.0, -1.0 })
+  {
+    const glm::dvec3 hilum = side > 0.0 ? glm::dvec3(44, -4, 112) : glm::dvec3(-46, -6, 108);
+    for (int n = 0; n < 5; ++n)
+    {
+      const glm::dvec3 way = side < 0.0 && n == 3 ? glm::dvec3(0.75, 0.2, -0.62) : ways[n];
+      const glm::dvec3 along = glm::normalize(glm::dvec3(side * way.x, way.y, way.z));
+      for (const double far : { 24.0, 28.0, 31.0 })
+      {
+        EXPECT_LT(sharp.value(hilum + far * along, 0.0), -990.0) << side << ' ' << n << ' ' << far;
+      }
+    }
+  }
 }
 
 TEST(TorsoCT, HasTwelvePairsOfRibs)
@@ -140,7 +184,7 @@ TEST(TorsoCT, HasTheSameBytesEverywhere)
   {
     hash = (hash ^ static_cast<std::uint16_t>(v)) * 0x100000001b3ull;
   }
-  EXPECT_EQ(hash, 8902627145387306077ull);
+  EXPECT_EQ(hash, 13459537493515093361ull);
   tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   EXPECT_EQ(scanned(40, 10.0), values);
 }
