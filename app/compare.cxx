@@ -124,9 +124,21 @@ std::vector<MapperName> wanted_mappers(const Options& options)
     {
       throw Failure("--mappers " + name, "it is named twice", "name each once", BadCall);
     }
+    if (mapper.kind == MapperKind::PathTrace)
+    {
+      throw Failure("--mappers " + name, "compare does not measure it yet",
+        "draw it with brume render --mapper pathtrace", BadCall);
+    }
     wanted.push_back(mapper);
   }
-  return wanted.empty() ? mapper_names() : wanted;
+  for (const MapperName& mapper : mapper_names())
+  {
+    if (options.mappers.empty() && mapper.kind != MapperKind::PathTrace)
+    {
+      wanted.push_back(mapper);
+    }
+  }
+  return wanted;
 }
 
 void write_outputs(const OutputFolder& folder, const Comparison& comparison,
@@ -170,6 +182,7 @@ void run(const Options& options)
 {
   const std::vector<MapperName> wanted = wanted_mappers(options);
   check(options.scene);
+  refuse_paths(options.scene, "leave it out");
   if (!options.scene.preset.empty())
   {
     find_preset(options.scene.preset);
@@ -257,7 +270,7 @@ void add_compare(CLI::App& program)
     ->type_name("DIR");
   command
     ->add_option("--mappers", options->mappers,
-      "Which, separated by commas: " + list_mapper_names() + " [all]")
+      "Which, separated by commas: raymarch, vtk-fixed-point, vtk-gpu [all]")
     ->delimiter(',')
     ->type_name("M[,M]");
   command

@@ -10,6 +10,7 @@ namespace brume::app
 enum class MapperKind
 {
   RayMarch,   ///< vtkBrumeRayMarchMapper
+  PathTrace,  ///< vtkBrumePathTraceMapper
   FixedPoint, ///< vtkFixedPointVolumeRayCastMapper, VTK's own on the CPU
   Gpu,        ///< vtkOpenGLGPUVolumeRayCastMapper, VTK's own on the GPU
 };
@@ -21,6 +22,12 @@ struct MapperName
   const char* title;      ///< for people
   const char* class_name; ///< VTK's or Brume's
 };
+
+/// Whether it is one of Brume's own, which need no display.
+inline bool is_own(MapperKind kind)
+{
+  return kind == MapperKind::RayMarch || kind == MapperKind::PathTrace;
+}
 
 /// All of them, in the order in which they are shown.
 const std::vector<MapperName>& mapper_names();

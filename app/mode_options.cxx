@@ -329,6 +329,10 @@ void apply_cropping_of_voxels(const Cropping& cropping, vtkImageData* image, vtk
 
 std::string not_drawn_by(const ModeOptions& o, MapperKind mapper)
 {
+  if (mapper == MapperKind::PathTrace && o.blend_mode != "composite")
+  {
+    return "vtkBrumePathTraceMapper has no --blend-mode " + o.blend_mode;
+  }
   if (mapper == MapperKind::FixedPoint)
   {
     if (o.blend_mode == "average" || o.blend_mode == "additive" || o.blend_mode == "isosurface")

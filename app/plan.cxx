@@ -143,6 +143,7 @@ void run(const Options& options)
   {
     find_preset(options.scene.preset);
   }
+  refuse_paths(options.scene, "leave it out");
   check_output(options.json, options.scene.input);
   const InterruptionWatch watch;
   const VolumeScene scene = make_volume_scene(options.scene);

@@ -19,6 +19,7 @@
 #include "Transport/film.h"
 
 #include "vtkBrumeFog.h"
+#include "vtkBrumePathTraceMapper.h"
 #include "vtkBrumeRayMarchMapper.h"
 #include "vtkBrumeSparseVolume.h"
 
@@ -38,6 +39,7 @@
 #include <chrono>
 #include <cmath>
 #include <iostream>
+#include <sstream>
 #include <memory>
 #include <thread>
 
@@ -62,6 +64,14 @@ bool ends_with(const std::string& path, const std::string& ending)
     CLI::detail::to_lower(path.substr(path.size() - ending.size())) == ending;
 }
 
+/// An error in words.
+std::string describe(double error)
+{
+  std::ostringstream words;
+  words << error << " of white";
+  return words.str();
+}
+
 struct Drawn
 {
   Film film;
@@ -69,9 +79,11 @@ struct Drawn
   std::string statistics; ///< JSON
 };
 
-Drawn draw_ray_march(const VolumeScene& scene)
+/// By one of Brume's own mappers.
+template <class Mapper>
+Drawn draw_own(const VolumeScene& scene)
 {
-  vtkNew<vtkBrumeRayMarchMapper> mapper;
+  vtkNew<Mapper> mapper;
   set_up(scene, mapper);
   Drawn drawn;
   drawn.surfaces = draw_meshes(scene);
@@ -235,7 +247,15 @@ void run(const Options& options)
   {
     throw Failure("--mapper " + options.mapper, cannot, "take --mapper raymarch", BadCall);
   }
-  if (mapper.kind != MapperKind::RayMarch)
+  if (mapper.kind == MapperKind::PathTrace)
+  {
+    refuse_beyond_paths(options.scene);
+  }
+  else
+  {
+    refuse_paths(options.scene, "add --mapper pathtrace, or leave it out");
+  }
+  if (!is_own(mapper.kind))
   {
     refuse_beyond_stock_mappers(options.scene, "take --mapper raymarch, or leave it out");
   }
@@ -254,8 +274,9 @@ void run(const Options& options)
   const InterruptionWatch watch;
   const VolumeScene scene = make_volume_scene(options.scene);
   const Drawn drawn = !scene.volume        ? draw_fog(scene)
-    : mapper.kind == MapperKind::RayMarch ? draw_ray_march(scene)
-                                          : draw_stock(scene, mapper);
+    : mapper.kind == MapperKind::RayMarch  ? draw_own<vtkBrumeRayMarchMapper>(scene)
+    : mapper.kind == MapperKind::PathTrace ? draw_own<vtkBrumePathTraceMapper>(scene)
+                                           : draw_stock(scene, mapper);
   InterruptionWatch::check(options.scene.input.c_str());
 
   nlohmann::json statistics = nlohmann::json::parse(drawn.statistics);
@@ -295,10 +316,12 @@ void run(const Options& options)
     }
     if (!statistics.value("tolerance_met", true))
     {
+      const nlohmann::json& error = statistics["estimated_error"];
       std::cerr << "brume: " << options.scene.input << ": the estimated error, "
-                << statistics["estimated_error"].get<double>()
-                << " of white, is over the tolerance: give a smaller --sample-distance, or a larger "
-                   "--tolerance\n";
+                << (error.is_null() ? "not known yet" : describe(error.get<double>())) << ", is over the tolerance: give "
+                << (mapper.kind == MapperKind::PathTrace ? "more --samples-per-pixel"
+                                                         : "a smaller --sample-distance")
+                << ", or a larger --tolerance\n";
     }
   }
   if (options.scene.verbose)

@@ -240,6 +240,34 @@ void add_scene_options(CLI::App& command, SceneOptions& o, const std::string& sh
     ->type_name("T")
     ->check(number("a number from 0 to 1", [](double v) { return v >= 0.0 && v <= 1.0; }))
     ->group(cost);
+  command
+    .add_option("--samples-per-pixel", o.paths.samples_per_pixel,
+      "Paths through each pixel, at the most; four times as many halve the noise "
+      "(--mapper pathtrace) [64]")
+    ->type_name("N")
+    ->check(number("a whole number from 1 to 2147483647",
+      [](double v) { return v >= 1 && v <= 2147483647.0 && v == std::floor(v); }))
+    ->group(cost);
+  command
+    .add_option("--maximum-scatterings", o.paths.scatterings,
+      "Scatterings of a path, at the most (--mapper pathtrace) [0: any number]")
+    ->type_name("N")
+    ->check(number("a whole number from 0 to 2147483647",
+      [](double v) { return v >= 0 && v <= 2147483647.0 && v == std::floor(v); }))
+    ->group(cost);
+  command
+    .add_option("--time-budget", o.paths.seconds,
+      "Seconds that tracing paths may take (--mapper pathtrace) [no limit]")
+    ->type_name("SECONDS")
+    ->check(positive())
+    ->group(cost);
+  command
+    .add_option("--seed", o.paths.seed,
+      "Which of all pictures of the same noise: a whole number of 32 bits (--mapper pathtrace) [1]")
+    ->type_name("S")
+    ->check(number("a whole number from 0 to 4294967295",
+      [](double v) { return v >= 0 && v <= 4294967295.0 && v == std::floor(v); }))
+    ->group(cost);
   command.add_option("--threads", o.threads, "Threads that render [as many as processors]")
     ->type_name("N")
     ->check(number("a whole number from 1 to 1024",
@@ -279,6 +307,45 @@ void refuse_beyond_stock_mappers(const SceneOptions& options, const std::string&
   if (!options.meshes.empty())
   {
     throw Failure("--mesh", "surfaces are drawn with Brume's volumes alone", remedy, BadCall);
+  }
+}
+
+std::string PathOptions::given() const
+{
+  return this->samples_per_pixel ? "--samples-per-pixel"
+    : this->scatterings          ? "--maximum-scatterings"
+    : this->seconds              ? "--time-budget"
+    : this->seed                 ? "--seed"
+                                 : "";
+}
+
+void refuse_beyond_paths(const SceneOptions& options)
+{
+  const char* const remedy = "leave it out, or take --mapper raymarch";
+  if (options.medium.has_fog())
+  {
+    throw Failure("--fog-extinction", "paths are not traced through fog yet", remedy, BadCall);
+  }
+  if (options.sample_distance)
+  {
+    throw Failure("--sample-distance", "paths take no steps", remedy, BadCall);
+  }
+  if (options.medium.shadows != "automatic" || options.medium.shadow_sample_distance > 0.0)
+  {
+    throw Failure(options.medium.shadows != "automatic" ? "--shadows" : "--shadow-sample-distance",
+      "paths know all shadows", remedy, BadCall);
+  }
+  if (!options.medium.forces.empty())
+  {
+    throw Failure("--force", "paths simulate what they simulate", remedy, BadCall);
+  }
+}
+
+void refuse_paths(const SceneOptions& options, const std::string& remedy)
+{
+  if (const std::string option = options.paths.given(); !option.empty())
+  {
+    throw Failure(option, "it is the path tracer's", remedy, BadCall);
   }
 }
 

@@ -6,6 +6,7 @@
 #include "mode_options.h"
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,18 @@ namespace brume::app
 {
 
 /// What the user says about the scene. Empty optionals are settled from the volume (volume_scene.h).
+/// How paths are traced (--mapper pathtrace); what is not given is the mapper's default.
+struct PathOptions
+{
+  std::optional<int> samples_per_pixel;
+  std::optional<int> scatterings; ///< at the most; 0: any number
+  std::optional<double> seconds;  ///< at the most
+  std::optional<std::uint32_t> seed;
+
+  /// The first option that is given; empty: none.
+  std::string given() const;
+};
+
 struct SceneOptions
 {
   std::string input;
@@ -45,6 +58,7 @@ struct SceneOptions
   ModeOptions modes;
   MediumOptions medium;
   double tolerance = 0.004;
+  PathOptions paths;
   int threads = 0;
   bool quiet = false;
   bool verbose = false;
@@ -68,5 +82,11 @@ void check(const SceneOptions& options);
 /// Throws Failure (BadCall) with this remedy where the scene has what VTK's own mappers do not draw:
 /// a density, light in a medium, fog, surfaces, forced effects.
 void refuse_beyond_stock_mappers(const SceneOptions& options, const std::string& remedy);
+
+/// Throws Failure (BadCall) where an option was given that the path tracer does not follow.
+void refuse_beyond_paths(const SceneOptions& options);
+
+/// Throws Failure (BadCall) where an option of the path tracer was given to something else.
+void refuse_paths(const SceneOptions& options, const std::string& remedy);
 
 }

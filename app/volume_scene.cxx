@@ -12,6 +12,7 @@
 
 #include "vtkBrumeFog.h"
 #include "vtkBrumeMedium.h"
+#include "vtkBrumePathTraceMapper.h"
 #include "vtkBrumeRayMarchMapper.h"
 #include "vtkBrumeSky.h"
 #include "vtkBrumeSparseVolume.h"
@@ -366,7 +367,11 @@ VolumeScene make_volume_scene(const SceneOptions& options)
   return scene;
 }
 
-void set_up(const VolumeScene& scene, vtkBrumeRayMarchMapper* mapper)
+namespace
+{
+
+/// What all of Brume's mappers take.
+void give_scene(const VolumeScene& scene, vtkBrumeVolumeMapper* mapper)
 {
   const SceneOptions& options = scene.options;
   mapper->SetInputDataObject(scene.input.data());
@@ -377,16 +382,33 @@ void set_up(const VolumeScene& scene, vtkBrumeRayMarchMapper* mapper)
   mapper->SetTolerance(options.tolerance);
   mapper->SetNumberOfThreads(options.threads);
   apply(options.modes, mapper, scene.volume->GetProperty());
-  apply(options.medium, mapper);
   mapper->SetMaskInput(scene.mask);
   mapper->SetMaskTypeToBinary();
-  if (options.sample_distance)
-  {
-    mapper->AutoAdjustSampleDistancesOff();
-    mapper->SetSampleDistance(*options.sample_distance);
-  }
   scene.volume->SetMapper(mapper);
   fit_clipping_range(scene);
+}
+
+}
+
+void set_up(const VolumeScene& scene, vtkBrumeRayMarchMapper* mapper)
+{
+  give_scene(scene, mapper);
+  apply(scene.options.medium, mapper);
+  if (scene.options.sample_distance)
+  {
+    mapper->AutoAdjustSampleDistancesOff();
+    mapper->SetSampleDistance(*scene.options.sample_distance);
+  }
+}
+
+void set_up(const VolumeScene& scene, vtkBrumePathTraceMapper* mapper)
+{
+  give_scene(scene, mapper);
+  const PathOptions& paths = scene.options.paths;
+  mapper->SetSamplesPerPixel(paths.samples_per_pixel.value_or(mapper->GetSamplesPerPixel()));
+  mapper->SetMaximumScatterings(paths.scatterings.value_or(mapper->GetMaximumScatterings()));
+  mapper->SetTimeBudget(paths.seconds.value_or(mapper->GetTimeBudget()));
+  mapper->SetSeed(paths.seed.value_or(mapper->GetSeed()));
 }
 
 void fit_clipping_range(const VolumeScene& scene)

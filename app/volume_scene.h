@@ -11,7 +11,9 @@
 
 class vtkBrumeFog;
 class vtkBrumeMedium;
+class vtkBrumePathTraceMapper;
 class vtkBrumeRayMarchMapper;
+class vtkBrumeVolumeMapper;
 class vtkBrumeSky;
 class vtkCamera;
 class vtkImageData;
@@ -62,7 +64,10 @@ void fit_clipping_range(const VolumeScene& scene);
 
 /// Gives the mapper all of the scene, and the volume the mapper; the camera's clipping range is fitted
 /// to the volume and the meshes.
+///@{
 void set_up(const VolumeScene& scene, vtkBrumeRayMarchMapper* mapper);
+void set_up(const VolumeScene& scene, vtkBrumePathTraceMapper* mapper);
+///@}
 
 /// What a VTK object complained of, without the place in its source, one line; "see brume info" for an
 /// empty text.

@@ -38,10 +38,11 @@ void BrickWalk::settle(double t, bool first)
   for (int axis = 0; axis < 3; ++axis)
   {
     const double place = this->Begin[axis] + this->Along[axis] * t;
-    const double last = this->Bricks->dims[axis] - 1;
-    const double edge = 1 << this->Bricks->shift;
-    const double brick = std::floor(place / edge);
-    const int found = static_cast<int>(std::clamp(brick, 0.0, last));
+    const int last = this->Bricks->dims[axis] - 1;
+    const double most = static_cast<double>(last + 1) * (1 << this->Bricks->shift);
+    // Not std::floor, which without SSE4 is a call: below 0 there is no brick.
+    const int voxel = static_cast<int>(std::clamp(place, 0.0, most));
+    const int found = std::min(voxel >> this->Bricks->shift, last);
     // Never back, whatever rounding says: so each turn of next() comes nearer to the end.
     this->Place[axis] = first                     ? found
                         : this->Along[axis] > 0.0 ? std::max(this->Place[axis], found)

@@ -21,6 +21,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Below this weight a path goes on with a chance that is as small, and more weight if it does.
 constexpr double least_weight = 0.25;
 
+/// Lamps that are looked at where light is scattered.
+constexpr std::size_t most_candidates = 16;
+
 double largest(const glm::dvec3& v)
 {
   return std::max({ v.x, v.y, v.z });
@@ -29,6 +32,14 @@ double largest(const glm::dvec3& v)
 double mean(const glm::dvec3& v)
 {
   return (v.x + v.y + v.z) / 3.0;
+}
+
+/// e^(−depth · channels); mostly the channels are alike.
+glm::dvec3 passing(double depth, const glm::dvec3& channels)
+{
+  return channels.x == channels.y && channels.y == channels.z
+           ? glm::dvec3(std::exp(-depth * channels.x))
+           : glm::exp(-depth * channels);
 }
 
 }
@@ -164,6 +175,12 @@ std::size_t PathScene::non_finite_voxels() const
   return count;
 }
 
+bool PathScene::has_kinks() const
+{
+  return std::any_of(this->Media.begin(), this->Media.end(),
+    [](const ReferenceMedium& medium) { return medium.is_density() && medium.ranges().lower < 0.0f; });
+}
+
 /// The first real collision, if there is one. Of several matters the tentative collisions are taken
 /// in the order in which the ray meets them.
 bool PathScene::collide(const glm::dvec3& begin,
@@ -282,7 +299,9 @@ glm::dvec3 PathScene::transmittance(const glm::dvec3& begin,
         passes *= glm::max(1.0 - more * channels, 0.0);
       }
       left -= (walk.to() - at) * extra;
-      const double most = largest(passes * glm::exp(-depth * channels));
+      // The most that may be left; of what is everywhere, by the clearest channel.
+      const double clearest = std::min({ channels.x, channels.y, channels.z });
+      const double most = largest(passes) * std::exp(-depth * clearest);
       if (most < roulette)
       {
         constexpr double survival = 0.25;
@@ -294,40 +313,62 @@ glm::dvec3 PathScene::transmittance(const glm::dvec3& begin,
         roulette *= survival;
       }
     }
-    passes *= glm::exp(-depth * channels);
+    passes *= passing(depth, channels);
   }
   return passes;
 }
 
+/// One lamp is followed, with a chance that is its share of what would arrive from all without shadows.
+/// Of many lamps a few are drawn by their power first, and that is done among them, which is unbiased,
+/// too (J. Talbot, D. Cline, P. Egbert, Importance resampling for global illumination, EGSR 2005).
 glm::dvec3 PathScene::lit(const glm::dvec3& place,
   const glm::dvec3& along,
   const PhaseSampler& phase,
   Path& path) const
 {
-  if (this->Lamps.empty())
+  const std::size_t lamps = this->Lamps.size();
+  const bool all = lamps <= most_candidates;
+  const Lamp* chosen = nullptr;
+  glm::dvec3 arrives(0.0);
+  double chosen_brightness = 0.0;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < std::min(lamps, most_candidates); ++i)
+  {
+    std::size_t which = i;
+    double weight = 1.0; // of one candidate, by the chance to be one
+    if (!all)
+    {
+      const auto end = this->LampUpTo.end() - 1;
+      const auto at = std::upper_bound(this->LampUpTo.begin(), end, path.random.uniform());
+      which = at - this->LampUpTo.begin();
+      const double chance = *at - (which > 0 ? this->LampUpTo[which - 1] : 0.0);
+      weight = 1.0 / (chance * static_cast<double>(most_candidates));
+    }
+    const Lamp& lamp = this->Lamps[which];
+    const glm::dvec3 offset = lamp.offset(place);
+    const glm::dvec3 light = lamp.irradiance(offset) * phase.value(along, -lamp.travel(offset));
+    const double brightness = largest(path.kept * light);
+    if (!(brightness > 0.0))
+    {
+      continue;
+    }
+    sum += weight * brightness;
+    if (!chosen || path.random.uniform() * sum < weight * brightness)
+    {
+      chosen = &lamp;
+      arrives = light;
+      chosen_brightness = brightness;
+    }
+  }
+  if (!chosen)
   {
     return glm::dvec3(0.0);
   }
-  std::size_t which = 0;
-  double chance = 1.0;
-  if (this->Lamps.size() > 1)
-  {
-    const double u = path.random.uniform();
-    which = std::upper_bound(this->LampUpTo.begin(), this->LampUpTo.end() - 1, u) -
-            this->LampUpTo.begin();
-    chance = this->LampUpTo[which] - (which > 0 ? this->LampUpTo[which - 1] : 0.0);
-  }
-  const Lamp& lamp = this->Lamps[which];
-  const glm::dvec3 offset = lamp.offset(place);
-  const glm::dvec3 travel = lamp.travel(offset);
-  const glm::dvec3 arrives = lamp.irradiance(offset) * phase.value(along, -travel) / chance;
-  if (!(largest(arrives) > 0.0))
-  {
-    return glm::dvec3(0.0);
-  }
+  const glm::dvec3 offset = chosen->offset(place);
+  const double way = chosen->is_positional() ? glm::length(offset) : infinity;
   ++path.counts.shadow_rays;
-  return arrives * this->transmittance(place, -travel,
-                     lamp.is_positional() ? glm::length(offset) : infinity, path);
+  return arrives * (sum / chosen_brightness) *
+         this->transmittance(place, -chosen->travel(offset), way, path);
 }
 
 glm::dvec3 PathScene::sky(const glm::dvec3& direction) const

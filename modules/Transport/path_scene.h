@@ -50,6 +50,10 @@ public:
 
   std::size_t non_finite_voxels() const;
 
+  /// Whether a density falls below 0 somewhere, where it counts as 0: the extinction then has a kink
+  /// inside a cell.
+  bool has_kinks() const;
+
 private:
   struct Path;
   struct Collision;

@@ -166,8 +166,9 @@ PathStatistics PathTracer::render(const Scene& scene,
     march.leave_error = 1e-5;
     march.threads = settings.threads;
     const Scene dark = without_light(scene);
-    const double step = settings.step > 0.0 ? settings.step : 0.25 * smallest_voxel_edge(scene);
-    march.rule = follows_rule(dark, StepRule::Cells) ? StepRule::Cells : StepRule::Midpoint;
+    const double step = settings.step > 0.0 ? settings.step : 0.125 * smallest_voxel_edge(scene);
+    const bool exact = follows_rule(dark, StepRule::Cells) && !paths.has_kinks();
+    march.rule = exact ? StepRule::Cells : StepRule::Midpoint;
     march.step = march.rule == StepRule::Cells ? smallest_voxel_edge(scene) : step;
     const bool whole = kept.Absorption
                          .render(dark, march, kept.Behind,

@@ -27,7 +27,7 @@ struct PathSettings
   /// Chooses among all pictures of this noise: same seed, same picture, bit for bit, for every number
   /// of threads.
   std::uint32_t seed = 1;
-  /// Step of the transmittance through classified matter, in the data's units; 0: a quarter of the
+  /// Step of the transmittance through classified matter, in the data's units; 0: an eighth of the
   /// smallest voxel edge. Densities need none.
   double step = 0.0;
   /// Goes on where the last render() of the same scene stopped, with its paths counted in: for

@@ -6,12 +6,26 @@
 
 #include <glm/ext/matrix_transform.hpp>
 
+#include <cstdlib>
 #include <iostream>
 
 using namespace lit_scenes;
 
 namespace
 {
+
+/// The share of the paths that full tests trace: the environment variable BRUME_PATHS, 1 for the
+/// published accuracy of 0.1 %, else a sixteenth, and few under sanitizers.
+double effort()
+{
+  const char* text = std::getenv("BRUME_PATHS");
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  const double usual = 1.0 / 256.0;
+#else
+  const double usual = 1.0 / 16.0;
+#endif
+  return text ? std::max(std::atof(text), 1e-3) : usual;
+}
 
 struct Mean
 {
@@ -45,7 +59,7 @@ Film trace(const Scene& scene, int edge, int samples, int scatterings = 0, std::
   Film film(edge, edge);
   PathTracer tracer;
   PathSettings settings;
-  settings.samples_per_pixel = samples;
+  settings.samples_per_pixel = std::max(static_cast<int>(std::lround(effort() * samples)), 1);
   settings.most_scatterings = scatterings;
   settings.seed = seed;
   const PathStatistics s = tracer.render(scene, settings, film);
@@ -61,6 +75,7 @@ Film trace(const Scene& scene, int edge, int samples, int scatterings = 0, std::
 View narrow(const Slab& slab, double zenith)
 {
   View view = slab.look(zenith, 1e-3);
+  view.centre += glm::dvec3(1234.5, 777.7, 0.0);
   view.parallel = true;
   return view;
 }
@@ -131,15 +146,16 @@ TEST(PathTracing, SlabReflectsAndTransmitsAsPublished)
   slab.scene.sky.radiance = glm::dvec3(1.0, 0.0, 1.0);
   slab.scene.sky.ground = glm::dvec3(0.0, 1.0, 1.0);
   slab.scene.camera = narrow(slab, 0.0).camera(1.0);
-  const Mean mean = mean_of(trace(slab.scene, 64, 1400));
+  const Mean mean = mean_of(trace(slab.scene, 64, 1600));
   // H. C. van de Hulst, Multiple Light Scattering, 1980, as quoted by L. Wang, S. L. Jacques, L. Zheng,
   // MCML, Computer Methods and Programs in Biomedicine 47, 1995.
   const double reflectance = 0.09739;
   const double transmittance = 0.66096 - std::exp(-2.0);
   std::cout << "reflectance " << mean.value.x << " +- " << mean.error.x << ", transmittance "
             << mean.value.y + std::exp(-2.0) << " +- " << mean.error.y << '\n';
-  EXPECT_LE(mean.error.x, 1e-3 * reflectance);
-  EXPECT_LE(mean.error.y, 1e-3 * 0.66096);
+  const double fewer = 1.0 / std::sqrt(effort());
+  EXPECT_LE(mean.error.x, fewer * 1e-3 * reflectance);
+  EXPECT_LE(mean.error.y, fewer * 1e-3 * 0.66096);
   EXPECT_NEAR(mean.value.x, reflectance, 3.0 * mean.error.x + 5e-6); // its last digit
   EXPECT_NEAR(mean.value.y, transmittance, 3.0 * mean.error.y + 5e-6);
   EXPECT_NEAR(mean.value.z, mean.value.x + mean.value.y, 1e-6);
@@ -154,7 +170,7 @@ TEST(PathTracing, HalfSpaceFollowsChandrasekhar)
   {
     const HFunction h(albedo);
     const double depth = albedo < 1.0 ? 60.0 / std::sqrt(3.0 * (1.0 - albedo)) : 40.0;
-    for (const double zenith : { 0.0, 60.0, 80.0 })
+    for (const double zenith : { 0.0, 80.0 })
     {
       Slab slab(glm::dvec3(depth), 1e5);
       slab.medium().albedo = glm::dvec3(albedo);
@@ -167,7 +183,7 @@ TEST(PathTracing, HalfSpaceFollowsChandrasekhar)
         slab.add_sun(suns[c], 40.0, colour);
       }
       slab.scene.camera = narrow(slab, zenith).camera(1.0);
-      const Mean mean = mean_of(trace(slab.scene, 32, 1200));
+      const Mean mean = mean_of(trace(slab.scene, 32, 3000));
       const double mu = std::cos(zenith * pi / 180.0);
       for (int c = 0; c < 3; ++c)
       {
@@ -180,7 +196,7 @@ TEST(PathTracing, HalfSpaceFollowsChandrasekhar)
         const double radiance = mu0 * reflection; // of an irradiance of π
         EXPECT_NEAR(mean.value[c], radiance, 3.0 * mean.error[c])
           << "albedo " << albedo << ", view " << zenith << ", sun " << suns[c];
-        EXPECT_LE(mean.error[c], 2.5e-3 * radiance);
+        EXPECT_LE(mean.error[c], 1e-3 * radiance / std::sqrt(effort()));
         std::cout << albedo << ' ' << zenith << ' ' << suns[c] << ": " << mean.value[c] / radiance - 1.0
                   << " +- " << mean.error[c] / radiance << '\n';
       }
@@ -215,13 +231,14 @@ TEST(PathTracing, WhiteFurnaceShowsTheFurnace)
       view.parallel = true;
       view.far_plane = 40.0;
       scene.camera = view.camera(1.0);
-      const Film film = trace(scene, 32, 300);
+      // Of coloured matter a path is of one colour, and the others make do with what it finds.
+      const Film film = trace(scene, 32, extinction.x == extinction.y ? 260 : 2100);
       const Mean mean = mean_of(film);
       for (int c = 0; c < 3; ++c)
       {
         const double seen = mean.value[c] + film.transmittance[c][0];
         EXPECT_NEAR(seen, 1.0, 3.0 * mean.error[c] + 1e-5) << extinction[c] << ", g " << g;
-        EXPECT_LE(mean.error[c], 1e-3);
+        EXPECT_LE(mean.error[c], 1e-3 / std::sqrt(effort()));
       }
     }
   }

@@ -1,0 +1,25 @@
+// What path tracing simulates of a scene, for statistics. Internal to Mappers.
+#ifndef path_report_h
+#define path_report_h
+
+#include "Transport/effect_plan.h"
+#include "Transport/scene.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace brume
+{
+
+/// Which effects paths of up to `most_scatterings` (0: any number) simulate, and why.
+EffectPlan plan_of_paths(const Scene& scene, int most_scatterings);
+
+/// The plan's effects, as statistics list them.
+nlohmann::json effects_of(const EffectPlan& plan);
+
+/// As is_radiometric() (march_report.h): paths draw neither shading of lit media, nor silver lining,
+/// nor powder.
+bool is_radiometric_as_paths(const Scene& scene, bool window_level);
+
+}
+
+#endif

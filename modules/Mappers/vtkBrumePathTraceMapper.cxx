@@ -1,0 +1,96 @@
+#include "vtkBrumePathTraceMapper.h"
+
+#include "march_report.h"
+#include "path_report.h"
+
+#include "Transport/film.h"
+#include "Transport/path_tracer.h"
+
+#include "vtkBrumeEffectPlan.h"
+#include "vtkObjectFactory.h"
+#include "vtkVolume.h"
+#include "vtkVolumeProperty.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+struct vtkBrumePathTraceMapper::Internals
+{
+  brume::PathTracer Tracer;
+};
+
+vtkStandardNewMacro(vtkBrumePathTraceMapper);
+
+vtkBrumePathTraceMapper::vtkBrumePathTraceMapper()
+  : Internal(std::make_unique<Internals>())
+{
+}
+
+vtkBrumePathTraceMapper::~vtkBrumePathTraceMapper() = default;
+
+void vtkBrumePathTraceMapper::AppendIgnoredSettings(vtkVolume* volume,
+  std::vector<std::string>& names)
+{
+  if (this->GetMedium() && volume->GetProperty()->GetShade())
+  {
+    names.emplace_back("vtkVolumeProperty::Shade with a Medium");
+  }
+}
+
+bool vtkBrumePathTraceMapper::RenderScene(brume::Scene& scene, brume::Film& film)
+{
+  brume::PathSettings settings;
+  settings.samples_per_pixel = this->SamplesPerPixel;
+  settings.tolerance = this->Tolerance;
+  settings.seconds = this->TimeBudget;
+  settings.most_scatterings = this->MaximumScatterings;
+  settings.seed = this->Seed;
+  settings.threads = this->NumberOfThreads;
+  const brume::PathStatistics paths = this->Internal->Tracer.render(
+    scene, settings, film, [this](double fraction) { return this->TellProgress(fraction); });
+  this->SecondsRender = paths.seconds;
+
+  const brume::EffectPlan plan = brume::plan_of_paths(scene, this->MaximumScatterings);
+  this->GetEffectPlan()->SetPlan(plan);
+  const bool window = this->FinalColorWindow != 1.0f || this->FinalColorLevel != 0.5f;
+  nlohmann::json statistics;
+  statistics["mapper"] = "pathtrace";
+  statistics["seconds"] = paths.seconds;
+  statistics["seconds_prepare"] = this->SecondsScene + paths.seconds_prepare;
+  statistics["samples"] = paths.collisions;
+  statistics["rays"] = paths.paths;
+  statistics["samples_per_pixel"] = paths.samples_per_pixel;
+  statistics["scatterings"] = paths.scatterings;
+  statistics["shadow_rays"] = paths.shadow_rays;
+  statistics["threads"] = paths.threads;
+  statistics["simd"] = "none";
+  statistics["seed"] = this->Seed;
+  statistics["maximum_scatterings"] = this->MaximumScatterings;
+  statistics["blend_mode"] = brume::blend_mode_name(scene.blend_mode);
+  statistics["volumes"] = scene.volumes.size();
+  statistics["image_sample_distance"] = this->ImageSampleDistanceInUse;
+  statistics["tolerance"] = this->Tolerance;
+  // Infinite before there are samples enough: null, which JSON has in its place.
+  const bool known = std::isfinite(paths.estimated_error);
+  statistics["estimated_error"] = known ? nlohmann::json(paths.estimated_error) : nullptr;
+  statistics["rms_error"] = known ? nlohmann::json(paths.rms_error) : nullptr;
+  statistics["tolerance_met"] = paths.estimated_error <= this->Tolerance;
+  statistics["effects"] = brume::effects_of(plan);
+  statistics["ignored_settings"] = this->IgnoredSettings;
+  statistics["non_finite_voxels"] = paths.non_finite_voxels;
+  statistics["radiometric"] = brume::is_radiometric_as_paths(scene, window);
+  statistics["peak_memory_bytes"] = brume::peak_memory_bytes();
+  statistics["completed"] = paths.completed;
+  this->Statistics = statistics.dump(2);
+  return paths.completed;
+}
+
+void vtkBrumePathTraceMapper::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "SamplesPerPixel: " << this->SamplesPerPixel << "\n";
+  os << indent << "MaximumScatterings: " << this->MaximumScatterings << "\n";
+  os << indent << "TimeBudget: " << this->TimeBudget << "\n";
+  os << indent << "Seed: " << this->Seed << "\n";
+}
