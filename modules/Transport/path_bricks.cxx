@@ -25,11 +25,13 @@ BrickWalk::BrickWalk(const PathBricks& bricks,
 /// Where the ray meets the border of the given brick that it moves toward along an axis.
 double BrickWalk::border(int axis, int side_brick) const
 {
-  if (this->Along[axis] == 0.0)
+  // The outermost bricks reach as far as the ray is asked for: half a voxel beyond, of cells.
+  const bool up = this->Along[axis] > 0.0;
+  if (this->Along[axis] == 0.0 || (up ? side_brick + 1 >= this->Bricks->dims[axis] : side_brick <= 0))
   {
     return std::numeric_limits<double>::infinity();
   }
-  const int corner = (side_brick + (this->Along[axis] > 0.0 ? 1 : 0)) << this->Bricks->shift;
+  const int corner = (side_brick + (up ? 1 : 0)) << this->Bricks->shift;
   return (corner - this->Begin[axis]) * this->Inverse[axis];
 }
 

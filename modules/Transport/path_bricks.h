@@ -32,8 +32,8 @@ struct PathBricks
 class BrickWalk
 {
 public:
-  /// The ray's places are begin + t · along, in index space; only t in [from, to] counts, where the ray
-  /// is inside the bricks but for rounding.
+  /// The ray's places are begin + t · along, in index space; only t in [from, to] counts. What is
+  /// beyond the bricks there belongs to the outermost of them.
   BrickWalk(const PathBricks& bricks,
     const glm::dvec3& begin,
     const glm::dvec3& along,

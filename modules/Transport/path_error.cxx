@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace brume
 {
@@ -11,6 +12,7 @@ void PathError::add(const double variance[3])
   ++this->Pixels;
   this->Sum += variance[0] + variance[1] + variance[2];
   const double largest = std::max({ variance[0], variance[1], variance[2] });
+  this->Unknown |= !std::isfinite(variance[0] + variance[1] + variance[2]);
   if (largest > 0.0)
   {
     const double place = (0.5 * std::log2(largest) - least_exponent) * parts;
@@ -26,6 +28,10 @@ double PathError::rms() const
 
 double PathError::quantile(double beyond) const
 {
+  if (this->Unknown)
+  {
+    return std::numeric_limits<double>::infinity();
+  }
   const auto share_beyond = [this](double error)
   {
     double sum = 0.0;

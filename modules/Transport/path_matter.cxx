@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 
 namespace brume
 {
@@ -314,17 +315,34 @@ glm::dvec3 PathMatter::emission(const glm::dvec3& place) const
   return sum;
 }
 
+namespace
+{
+
+/// Whether the volumes are components of one grid that send colours as VTK's mappers mix them. Lit ones
+/// would send more than they take, again at each scattering: their extinctions add up instead.
+bool mixes_as_components(const Scene& scene)
+{
+  const Volume& first = scene.volumes.front();
+  return scene.mixture == Mixture::Components && scene.volumes.size() > 1 &&
+         std::all_of(scene.volumes.begin(), scene.volumes.end(),
+           [&first](const Volume& v)
+           {
+             return v.grid.voxels == first.grid.voxels && v.grid.sparse == first.grid.sparse &&
+                    std::equal(v.grid.dims, v.grid.dims + 3, first.grid.dims) && !v.medium.lit &&
+                    v.meaning == ValueMeaning::Classified;
+           });
+}
+
+}
+
 std::vector<std::unique_ptr<PathMatter>> find_path_matter(
   const Scene& scene, const std::vector<ReferenceMedium>& media)
 {
   std::vector<std::unique_ptr<PathMatter>> result;
-  if (scene.mixture == Mixture::Components && scene.volumes.size() > 1)
+  if (mixes_as_components(scene))
   {
-    std::vector<int> all;
-    for (std::size_t v = 0; v < scene.volumes.size(); ++v)
-    {
-      all.push_back(static_cast<int>(v));
-    }
+    std::vector<int> all(scene.volumes.size());
+    std::iota(all.begin(), all.end(), 0);
     result.push_back(std::make_unique<PathMatter>(scene, media, all));
     return result;
   }

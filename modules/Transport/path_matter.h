@@ -80,7 +80,8 @@ private:
   glm::dmat3 DataFromIndex{ 1.0 };
 };
 
-/// The matter of a scene's volumes.
+/// The matter of a scene's volumes: one for each, or one for all components of an unlit grid that are
+/// mixed as Mixture::Components.
 std::vector<std::unique_ptr<PathMatter>> find_path_matter(
   const Scene& scene, const std::vector<ReferenceMedium>& media);
 

@@ -138,6 +138,9 @@ PathScene::PathScene(const Scene& scene)
     const glm::dvec3& k = matter->channels();
     this->Coloured |= k.x != k.y || k.y != k.z;
   }
+  this->Glows = largest(scene.sky.radiance) > 0.0 || largest(scene.sky.ground) > 0.0 ||
+                std::any_of(this->Matter.begin(), this->Matter.end(),
+                  [](const auto& matter) { return matter->emits(); });
   double sum = 0.0;
   for (const Light& light : scene.lights)
   {
@@ -156,8 +159,7 @@ PathScene::PathScene(const Scene& scene)
 
 bool PathScene::can_send() const
 {
-  const Sky& sky = this->TheScene.sky;
-  const bool lit = !this->Lamps.empty() || largest(sky.radiance) > 0.0 || largest(sky.ground) > 0.0;
+  const bool lit = !this->Lamps.empty() || this->Glows;
   return std::any_of(this->Matter.begin(), this->Matter.end(),
     [lit](const auto& matter) { return matter->emits() || (lit && matter->scatters()); });
 }
@@ -237,8 +239,7 @@ bool PathScene::collide(const glm::dvec3& begin,
       found.emitted += path.weight() * matter.emission(place) / rate;
     }
     const double density = matter.density(place, path.random);
-    const double share = std::min(density / rate, 1.0); // at most 1 but for rounding
-    const glm::dvec3 real = share * matter.channels();
+    const glm::dvec3 real = glm::min(density / rate * matter.channels(), 1.0); // but for rounding
     if (path.random.uniform() < real[path.hero])
     {
       if (this->Coloured)
@@ -420,7 +421,7 @@ glm::dvec3 PathScene::radiance(const glm::dvec3& begin,
     place += found.at * direction;
     const PhaseSampler& phase = found.matter->phase();
     sum += path.weight() * this->lit(place, direction, phase, path);
-    if (most_scatterings > 0 && scatterings + 1 == most_scatterings && largest(this->TheScene.sky.radiance + this->TheScene.sky.ground) <= 0.0)
+    if (scatterings + 1 == most_scatterings && !this->Glows)
     {
       return sum; // nothing more can come
     }

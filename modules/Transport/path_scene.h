@@ -81,6 +81,7 @@ private:
   std::vector<std::unique_ptr<PathMatter>> Matter;
   std::vector<Lamp> Lamps;
   std::vector<double> LampUpTo; ///< sums of the chances to be taken; the last is 1
+  bool Glows = false;           ///< light comes from elsewhere than lamps: sky, ground, matter
   bool Coloured = false;        ///< some extinction differs between R, G and B
 };
 

@@ -30,7 +30,10 @@ namespace
 using Clock = std::chrono::steady_clock;
 
 /// From so many paths a pixel on, standard errors are estimated.
-constexpr int fewest_samples = 8;
+constexpr int fewest_samples = 16;
+
+/// Paths a pixel of one pass, at the most: a pass is what is waited for when time is short.
+constexpr int most_of_pass = 64;
 
 double seconds_since(Clock::time_point start)
 {
@@ -79,16 +82,16 @@ struct PathTracer::Kept
   int Height = 0;
   std::vector<double> Sums;    ///< R, G, B a pixel, over its paths
   std::vector<double> Squares; ///< the same of squares
-  std::vector<int> Samples;    ///< paths of each pixel of a row
+  std::vector<int> Samples;    ///< paths of each pixel
   Film Behind;                 ///< transmittance and depth
 
   void begin(const Film& film)
   {
-    this->Width = film.width;
-    this->Height = film.height;
+    this->Width = 0; // until there is something to go on from
+    this->Height = 0;
     this->Sums.assign(3 * film.size(), 0.0);
     this->Squares.assign(3 * film.size(), 0.0);
-    this->Samples.assign(film.height, 0);
+    this->Samples.assign(film.size(), 0);
     this->Behind = Film(film.width, film.height);
   }
   bool fits(const Film& film) const
@@ -100,7 +103,7 @@ struct PathTracer::Kept
   /// The variance of the mean of a pixel's paths.
   double variance(std::size_t pixel, int channel) const
   {
-    const int n = this->Samples[pixel / this->Width];
+    const int n = this->Samples[pixel];
     const double sum = this->Sums[3 * pixel + channel];
     const double mean = sum / n;
     return n < 2 ? 0.0
@@ -110,12 +113,27 @@ struct PathTracer::Kept
   PathError error() const
   {
     PathError error;
-    for (std::size_t pixel = 0; pixel < this->Behind.size(); ++pixel)
+    for (int y = 0; y < this->Height; ++y)
     {
-      const double v[3] = {
-        this->variance(pixel, 0), this->variance(pixel, 1), this->variance(pixel, 2)
-      };
-      error.add(v);
+      for (int x = 0; x < this->Width; ++x)
+      {
+        double v[3];
+        for (int c = 0; c < 3; ++c)
+        {
+          double around = 0.0;
+          int count = 0;
+          for (int j = std::max(y - 1, 0); j <= std::min(y + 1, this->Height - 1); ++j)
+          {
+            for (int i = std::max(x - 1, 0); i <= std::min(x + 1, this->Width - 1); ++i, ++count)
+            {
+              around += this->variance(static_cast<std::size_t>(j) * this->Width + i, c);
+            }
+          }
+          const double own = this->variance(static_cast<std::size_t>(y) * this->Width + x, c);
+          v[c] = std::isnan(own) ? own : std::max(own, around / count);
+        }
+        error.add(v);
+      }
     }
     return error;
   }
@@ -127,7 +145,7 @@ struct PathTracer::Kept
     film.depth = this->Behind.depth;
     for (std::size_t pixel = 0; pixel < film.size(); ++pixel)
     {
-      const int n = std::max(this->Samples[pixel / this->Width], 1);
+      const int n = std::max(this->Samples[pixel], 1);
       double largest = 0.0;
       for (int c = 0; c < 3; ++c)
       {
@@ -176,9 +194,10 @@ PathStatistics PathTracer::render(const Scene& scene,
                          .completed;
     if (!whole)
     {
-      kept.Width = 0; // nothing to go on from
       return statistics;
     }
+    kept.Width = film.width;
+    kept.Height = film.height;
   }
   statistics.seconds_prepare = seconds_since(begin);
 
@@ -191,15 +210,14 @@ PathStatistics PathTracer::render(const Scene& scene,
   std::atomic<std::uint64_t> shadow_rays{ 0 };
   std::atomic<std::uint64_t> traced{ 0 };
   const int already = kept.fewest();
-  const bool limited = settings.seconds > 0.0 || settings.tolerance > 0.0;
-  double estimated = std::numeric_limits<double>::infinity();
 
   /// Brings every pixel to `target` paths.
   const auto pass = [&](int target)
   {
     std::atomic<int> rows{ 0 };
-    const double before = double(kept.fewest() - already) / std::max(settings.samples_per_pixel - already, 1);
-    const double part = double(target - kept.fewest()) / std::max(settings.samples_per_pixel - already, 1);
+    const double all = std::max(settings.samples_per_pixel - already, 1);
+    const double before = (kept.fewest() - already) / all;
+    const double part = (target - kept.fewest()) / all;
     tbb::task_arena arena(statistics.threads);
     arena.execute(
       [&]
@@ -208,19 +226,20 @@ PathStatistics PathTracer::render(const Scene& scene,
           tbb::blocked_range<int>(0, film.height, 1),
           [&](const tbb::blocked_range<int>& range)
           {
-            for (int y = range.begin(); y != range.end() && !aborted; ++y)
+            for (int y = range.begin(); y != range.end(); ++y)
             {
               PathCounts counts;
-              const int first = kept.Samples[y];
-              for (int x = 0; x < film.width; ++x)
+              for (int x = 0; x < film.width && !aborted; ++x)
               {
+                const std::size_t pixel = static_cast<std::size_t>(y) * film.width + x;
+                const int first = kept.Samples[pixel];
+                kept.Samples[pixel] = std::max(target, first);
                 const PixelRay ray = rays.ray(x, y);
                 if (ray.empty() || !(ray.world_length > 0.0))
                 {
                   continue;
                 }
                 const glm::dvec3 along = ray.world_along / ray.world_length;
-                const std::size_t pixel = static_cast<std::size_t>(y) * film.width + x;
                 double* sums = &kept.Sums[3 * pixel];
                 double* squares = &kept.Squares[3 * pixel];
                 for (int n = first; n < target; ++n)
@@ -235,55 +254,46 @@ PathStatistics PathTracer::render(const Scene& scene,
                   }
                 }
                 traced += static_cast<std::uint64_t>(std::max(target - first, 0));
+                if (progress && x % 16 == 15 && std::this_thread::get_id() == caller &&
+                    !progress(before + part * rows / film.height))
+                {
+                  aborted = true;
+                }
               }
-              kept.Samples[y] = std::max(target, first);
               collisions += counts.collisions;
               scatterings += counts.scatterings;
               shadow_rays += counts.shadow_rays;
-              const int finished = ++rows;
-              if (progress && std::this_thread::get_id() == caller &&
-                  !progress(before + part * finished / film.height))
-              {
-                aborted = true;
-              }
+              ++rows;
             }
           },
           tbb::simple_partitioner());
       });
   };
 
-  if (paths.can_send())
+  int target = already;
+  while (paths.can_send() && target < settings.samples_per_pixel && !aborted)
   {
-    int target = already;
-    while (target < settings.samples_per_pixel && !aborted)
+    if (settings.tolerance > 0.0 && target >= fewest_samples &&
+        kept.error().quantile() <= settings.tolerance)
     {
-      // Passes double, so that what is asked between them costs little.
-      int next = limited ? std::min(settings.samples_per_pixel, std::max(2 * target, 1))
-                         : settings.samples_per_pixel;
-      const int done = target - already;
-      if (settings.seconds > 0.0 && done > 0)
+      break;
+    }
+    // Passes double at first, so that what is asked between them costs little.
+    const int done = target - already;
+    double more = std::clamp(done, 1, most_of_pass);
+    if (settings.seconds > 0.0 && done > 0)
+    {
+      const double passed = seconds_since(start);
+      more = std::min(more, std::floor(done * (settings.seconds - passed) / std::max(passed, 1e-9)));
+      if (more < 1.0)
       {
-        const double passed = seconds_since(start);
-        const double affordable = done * (settings.seconds - passed) / std::max(passed, 1e-9);
-        if (affordable < 1.0)
-        {
-          break;
-        }
-        next = static_cast<int>(std::min<double>(next, target + affordable));
-      }
-      pass(next);
-      target = next;
-      if (settings.tolerance > 0.0 && target >= fewest_samples && !aborted)
-      {
-        estimated = kept.error().quantile();
-        if (estimated <= settings.tolerance)
-        {
-          break;
-        }
+        break;
       }
     }
+    target += static_cast<int>(std::min<double>(more, settings.samples_per_pixel - target));
+    pass(target);
   }
-  else
+  if (!paths.can_send())
   {
     std::fill(kept.Samples.begin(), kept.Samples.end(), settings.samples_per_pixel);
   }
@@ -294,11 +304,6 @@ PathStatistics PathTracer::render(const Scene& scene,
     const PathError error = kept.error();
     statistics.estimated_error = error.quantile();
     statistics.rms_error = error.rms();
-  }
-  else
-  {
-    statistics.estimated_error = std::numeric_limits<double>::infinity();
-    statistics.rms_error = std::numeric_limits<double>::infinity();
   }
   if (progress && !aborted && !progress(1.0))
   {

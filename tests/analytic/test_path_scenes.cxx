@@ -1,7 +1,6 @@
 // Path tracing against the other integrators and against itself: one scattering is the reference's,
 // and nothing that only saves time or memory moves the mean.
 #include "../support/lit_scenes.h"
-#include "../support/sparse_grids.h"
 
 #include "Transport/path_tracer.h"
 
@@ -15,40 +14,53 @@ using namespace lit_scenes;
 namespace
 {
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr int edge = 8; // each path takes many times as long
+constexpr int samples = 100;
+#else
+constexpr int edge = 24;
+constexpr int samples = 400;
+#endif
+
 /// How far estimates are from the truth, in their own standard errors: over all pixels that paths
 /// differ in.
 struct Agreement
 {
-  double mean = 0.0;   ///< of the sum over all pixels; single ones are skew, and tell less
-  double square = 0.0; ///< mean square of the single deviations; 1 is right
+  double mean = 0.0;   ///< of the sum over all pixels, in the worst channel; single ones are skew
+  double square = 0.0; ///< mean square of the pixels' deviations in their worst channel: about 1
   int count = 0;
+  int lost = 0;        ///< numbers that are wrong where paths do not differ
 };
 
 Agreement agreement(const Film& estimate, const Film& truth)
 {
   Agreement result;
-  double sum = 0.0;
-  double variance = 0.0;
   double squares = 0.0;
+  double variance = 0.0;
+  double sums[3] = { 0.0, 0.0, 0.0 };
   for (std::size_t i = 0; i < estimate.size(); ++i)
   {
-    // The error is three times the largest of the channels': that of the brightest one.
-    int brightest = 0;
-    for (int c = 1; c < 3; ++c)
-    {
-      brightest = truth.radiance[c][i] > truth.radiance[brightest][i] ? c : brightest;
-    }
+    // The error is three times the largest of the channels'.
     const double sigma = estimate.error[i] / 3.0;
+    double largest_off = 0.0;
+    for (int c = 0; c < 3; ++c)
+    {
+      const double off = double(estimate.radiance[c][i]) - truth.radiance[c][i];
+      sums[c] += off;
+      largest_off = std::max(largest_off, std::abs(off));
+      result.lost += !(sigma > 0.0) && std::abs(off) > 1e-2;
+    }
     if (sigma > 0.0)
     {
-      const double off = double(estimate.radiance[brightest][i]) - truth.radiance[brightest][i];
-      sum += off;
       variance += sigma * sigma;
-      squares += off * off / (sigma * sigma);
+      squares += largest_off * largest_off / (sigma * sigma);
       ++result.count;
     }
   }
-  result.mean = sum / std::sqrt(variance);
+  for (double sum : sums)
+  {
+    result.mean = std::max(result.mean, std::abs(sum) / std::sqrt(variance));
+  }
   result.square = squares / result.count;
   return result;
 }
@@ -185,6 +197,7 @@ std::vector<Named> scenes()
   }
   all.push_back(density<float>("glowing", 0.3));
   all.back().scene.volumes[0].medium.emission = glm::dvec3(0.05, 0.1, 0.02);
+  all.back().scene.volumes[0].medium.albedo = glm::dvec3(0.0); // the reference does not scatter it
   all.push_back(density<float>("glowing without extinction", 0.0));
   all.back().scene.volumes[0].medium.emission = glm::dvec3(0.05, 0.1, 0.02);
   all.push_back(density<float>("unlit beside lit", 0.3));
@@ -193,8 +206,32 @@ std::vector<Named> scenes()
     scene.volumes.push_back(scene.volumes[0]);
     classify(scene.volumes[1]);
     scene.volumes[1].medium.lit = false;
+    scene.volumes[0].medium.albedo = glm::dvec3(0.0);
     scene.volumes[1].world_from_data = placed(glm::dvec3(0.5, 0.5, 0.5), glm::dvec3(2.0, 3.0, 1.0));
   }
+  all.push_back(density<float>("cells, of a weaker colour", 0.8));
+  all.back().scene.volumes[0].grid.cell_centred = true;
+  all.back().scene.volumes[0].density.channels = glm::dvec3(0.5, 0.5, 0.25);
+  all.push_back(density<float>("nearest voxels", 0.5));
+  all.back().scene.volumes[0].grid.linear = false;
+  all.push_back(density<float>("masked, by gradient", 1.0));
+  {
+    Volume& volume = all.back().scene.volumes[0];
+    classify(volume);
+    volume.classification.gradient_opacity = { 0.1, 0.6, 1.0 };
+    volume.classification.gradient_upper = 0.5;
+    auto voxels = std::static_pointer_cast<Voxels<float>>(all.back().voxels);
+    auto labels = std::make_shared<std::vector<std::uint8_t>>(voxels->values.size());
+    for (std::size_t i = 0; i < labels->size(); ++i)
+    {
+      (*labels)[i] = i / 5 % 3 == 0;
+    }
+    volume.mask.labels = labels->data();
+    volume.mask.classification_of_label[1] = Mask::hidden;
+    all.back().voxels = std::make_shared<std::pair<std::shared_ptr<void>, decltype(labels)>>(voxels, labels);
+  }
+  all.push_back(density<float>("behind a surface", 0.5));
+  all.back().scene.surface_depth.assign(edge * edge, 0.99833f);
   all.push_back(density<float>("not a number here and there", 0.5));
   {
     auto voxels = std::static_pointer_cast<Voxels<float>>(all.back().voxels);
@@ -206,7 +243,7 @@ std::vector<Named> scenes()
   return all;
 }
 
-Film trace(const Scene& scene, const PathSettings& settings, int width = 24, int height = 24)
+Film trace(const Scene& scene, const PathSettings& settings, int width = edge, int height = edge)
 {
   Film film(width, height);
   PathTracer tracer;
@@ -221,25 +258,26 @@ TEST(PathScenes, OneScatteringIsTheReferences)
 {
   for (const Named& named : scenes())
   {
-    Film truth(24, 24);
+    Film truth(edge, edge);
     ReferenceSettings exact;
-    exact.tolerance = 2e-4;
-    exact.most_pieces = 8;
+    exact.tolerance = 5e-4;
+    exact.most_pieces = 4;
     ASSERT_TRUE(render_reference(named.scene, exact, truth).completed);
     PathSettings settings;
-    settings.samples_per_pixel = 400;
+    settings.samples_per_pixel = samples;
     settings.most_scatterings = 1;
     const Film film = trace(named.scene, settings);
     const Agreement a = agreement(film, truth);
     std::cout << named.name << ": " << a.mean << " standard errors off, mean square " << a.square
               << ", of " << a.count << " pixels\n";
-    EXPECT_GT(a.count, 100) << named.name;
-    EXPECT_LE(std::abs(a.mean), 3.5) << named.name;
-    EXPECT_LE(a.square, 1.5) << named.name;
+    EXPECT_GT(a.count, edge * edge / 8) << named.name;
+    EXPECT_LE(a.mean, 4.0) << named.name;
+    EXPECT_LE(a.square, 2.5) << named.name;
+    EXPECT_LE(a.lost, 3) << named.name; // rays that graze
     for (std::size_t i = 0; i < film.size(); ++i)
     {
-      // The marcher's steps of an eighth of a voxel; the classification is as steep as they come.
-      ASSERT_NEAR(film.transmittance[0][i], truth.transmittance[0][i], 5e-3) << named.name;
+      // The marcher's steps of an eighth of a voxel; the classification and mask are as steep as they come.
+      ASSERT_NEAR(film.transmittance[0][i], truth.transmittance[0][i], 2e-2) << named.name;
     }
   }
 }
@@ -255,7 +293,7 @@ TEST(PathScenes, AreTheSameForAllThreadsAndPasses)
   const Film one = trace(named.scene, settings);
   settings.threads = 5;
   EXPECT_TRUE(same_bits(one, trace(named.scene, settings)));
-  Film film(24, 24);
+  Film film(edge, edge);
   PathTracer tracer;
   for (int samples : { 1, 3, 8, 24 })
   {
@@ -270,8 +308,8 @@ TEST(PathScenes, AreTheSameForAllThreadsAndPasses)
   EXPECT_FALSE(same_bits(one, trace(named.scene, settings)));
 }
 
-// Roulette and bounds of bricks: the mean of many scatterings does not depend on them. A volume cut in
-// two, whose halves are tracked apart by other bricks, sends what the whole sends.
+// A volume cut in two, whose halves are tracked apart and read in another way (cut volumes have no
+// control extinction and no plain voxels), sends what the whole sends, after any number of scatterings.
 TEST(PathScenes, HalvesSendWhatTheWholeSends)
 {
   Named named = density<float>("floats", 1.2);
@@ -281,7 +319,7 @@ TEST(PathScenes, HalvesSendWhatTheWholeSends)
   cut.scene.volumes[0].clipping_planes = { glm::dvec4(1.0, 0.0, 0.0, -9.3) };
   cut.scene.volumes[1].clipping_planes = { glm::dvec4(-1.0, 0.0, 0.0, 9.3) };
   PathSettings settings;
-  settings.samples_per_pixel = 600;
+  settings.samples_per_pixel = samples;
   const Film whole = trace(named.scene, settings);
   settings.seed = 77;
   const Film halves = trace(cut.scene, settings);
@@ -308,20 +346,19 @@ TEST(PathScenes, HalvesSendWhatTheWholeSends)
 TEST(PathScenes, StopWhenTheyAreAskedTo)
 {
   const Named named = density<float>("floats", 0.5);
-  Film film(24, 24);
+  Film film(edge, edge);
   PathTracer tracer;
   PathSettings settings;
   settings.samples_per_pixel = 1 << 20;
   settings.tolerance = 0.2;
   PathStatistics s = tracer.render(named.scene, settings, film);
   EXPECT_LE(s.estimated_error, 0.2);
-  EXPECT_GE(s.samples_per_pixel, 8);
+  EXPECT_GE(s.samples_per_pixel, 16);
   EXPECT_LT(s.samples_per_pixel, 1 << 14);
   settings.tolerance = 0.0;
   settings.seconds = 0.2;
   s = tracer.render(named.scene, settings, film);
   EXPECT_GE(s.samples_per_pixel, 1);
-  EXPECT_LT(s.seconds, 2.0); // on a busy machine
   int asked = 0;
   s = tracer.render(named.scene, settings, film, [&](double) { return ++asked < 3; });
   EXPECT_FALSE(s.completed);
