@@ -43,6 +43,7 @@ std::string read_environment(const std::string& path)
 
 std::string map(const std::string& path)
 {
+  OIIO::attribute("exr_threads", -1); // as Brume has it: what reads is a copy of this process
   OIIO::ImageSpec spec(8, 4, 3, OIIO::TypeDesc::FLOAT);
   const std::vector<float> pixels(8 * 4 * 3, 0.75f);
   const auto out = OIIO::ImageOutput::create(path);
