@@ -27,6 +27,13 @@ double effort()
   return text ? std::max(std::atof(text), 1e-3) : usual;
 }
 
+/// Standard errors that a mean may be off. Of some fifty checks one is beyond three now and then, with another
+/// processor's last digits.
+double most_off()
+{
+  return std::getenv("BRUME_PATHS") ? 3.0 : 4.5;
+}
+
 struct Mean
 {
   glm::dvec3 value{ 0.0 };
@@ -156,8 +163,8 @@ TEST(PathTracing, SlabReflectsAndTransmitsAsPublished)
   const double fewer = 1.0 / std::sqrt(effort());
   EXPECT_LE(mean.error.x, fewer * 1e-3 * reflectance);
   EXPECT_LE(mean.error.y, fewer * 1e-3 * 0.66096);
-  EXPECT_NEAR(mean.value.x, reflectance, 3.0 * mean.error.x + 5e-6); // its last digit
-  EXPECT_NEAR(mean.value.y, transmittance, 3.0 * mean.error.y + 5e-6);
+  EXPECT_NEAR(mean.value.x, reflectance, most_off() * mean.error.x + 5e-6); // its last digit
+  EXPECT_NEAR(mean.value.y, transmittance, most_off() * mean.error.y + 5e-6);
   EXPECT_NEAR(mean.value.z, mean.value.x + mean.value.y, 1e-6);
 }
 
@@ -194,7 +201,7 @@ TEST(PathTracing, HalfSpaceFollowsChandrasekhar)
           reflection -= 4.0 * (3.0 / 16.0) * h(mu) * h(mu0) / (3.0 * (depth + 2.0 * 0.71044609));
         }
         const double radiance = mu0 * reflection; // of an irradiance of π
-        EXPECT_NEAR(mean.value[c], radiance, 3.0 * mean.error[c])
+        EXPECT_NEAR(mean.value[c], radiance, most_off() * mean.error[c])
           << "albedo " << albedo << ", view " << zenith << ", sun " << suns[c];
         EXPECT_LE(mean.error[c], 1e-3 * radiance / std::sqrt(effort()));
         std::cout << albedo << ' ' << zenith << ' ' << suns[c] << ": " << mean.value[c] / radiance - 1.0
@@ -237,7 +244,7 @@ TEST(PathTracing, WhiteFurnaceShowsTheFurnace)
       for (int c = 0; c < 3; ++c)
       {
         const double seen = mean.value[c] + film.transmittance[c][0];
-        EXPECT_NEAR(seen, 1.0, 3.0 * mean.error[c] + 1e-5) << extinction[c] << ", g " << g;
+        EXPECT_NEAR(seen, 1.0, most_off() * mean.error[c] + 1e-5) << extinction[c] << ", g " << g;
         EXPECT_LE(mean.error[c], 1e-3 / std::sqrt(effort()));
       }
     }
