@@ -55,10 +55,50 @@ double held_bytes(pid_t process)
                    : 0;
 }
 
-}
+/// Tells when a process has only slept for some seconds. The work waits for nobody: then it waits for a lock
+/// that a thread of this process held while the copy was made, and which nobody will open.
+class SleepWatch
+{
+public:
+  bool sleeps_for_ever(pid_t process)
+  {
+    const Clock::time_point now = Clock::now();
+    if (now < this->Next)
+    {
+      return false;
+    }
+    this->Next = now + std::chrono::milliseconds(250);
+    char path[64];
+    std::snprintf(path, sizeof(path), "/proc/%d/stat", static_cast<int>(process));
+    std::FILE* file = std::fopen(path, "r");
+    char state = 0;
+    unsigned long user = 0, system = 0;
+    // The name, in brackets, is this program's own and has none in it.
+    const int read = file ? std::fscanf(file,
+                              "%*d (%*[^)]) %c %*d %*d %*d %*d %*d %*u %*u %*u %*u %*u %lu %lu", &state,
+                              &user, &system)
+                          : 0;
+    if (file)
+    {
+      std::fclose(file);
+    }
+    if (read != 3 || state != 'S' || user + system != this->Ticks)
+    {
+      this->Ticks = user + system;
+      this->Since = now;
+    }
+    return now - this->Since > std::chrono::seconds(3);
+  }
 
-GuardResult run_guarded(const std::function<int()>& work, double seconds, double bytes,
-  const Progress& progress, const double* done)
+private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point Next{};
+  Clock::time_point Since = Clock::now();
+  unsigned long Ticks = ~0ul;
+};
+
+GuardResult run_once(const std::function<int()>& work, double seconds, double bytes,
+  const Progress& progress, const double* done, bool& slept)
 {
   using Clock = std::chrono::steady_clock;
   const double most = held_bytes(getpid()) + bytes;
@@ -108,6 +148,7 @@ GuardResult run_guarded(const std::function<int()>& work, double seconds, double
   const Clock::time_point end = Clock::now() +
     std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(20 + 2 * seconds)); // a busy machine
   auto pause = std::chrono::microseconds(100);
+  SleepWatch sleep;
   int status = 0;
   result.end = GuardEnd::Finished;
   pid_t ended = 0;
@@ -116,7 +157,8 @@ GuardResult run_guarded(const std::function<int()>& work, double seconds, double
     const GuardEnd before = result.end;
     if (before == GuardEnd::Finished)
     {
-      result.end = Clock::now() > end                       ? GuardEnd::TooLate
+      slept = sleep.sleeps_for_ever(child);
+      result.end = slept || Clock::now() > end              ? GuardEnd::TooLate
         : held_bytes(child) > most                          ? GuardEnd::TooLarge
         : progress && !progress(done ? *done : 0) ? GuardEnd::Stopped
                                                             : GuardEnd::Finished;
@@ -142,6 +184,16 @@ GuardResult run_guarded(const std::function<int()>& work, double seconds, double
     result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
   }
   return result;
+}
+
+}
+
+GuardResult run_guarded(const std::function<int()>& work, double seconds, double bytes,
+  const Progress& progress, const double* done)
+{
+  bool slept = false;
+  const GuardResult result = run_once(work, seconds, bytes, progress, done, slept);
+  return slept ? run_once(work, seconds, bytes, progress, done, slept) : result;
 }
 
 const char* spoken_end(GuardEnd end)

@@ -46,7 +46,8 @@ struct GuardResult
 /// Runs `work` in a copy of this process, with standard output and error closed to it. The copy has the
 /// calling thread alone: `work` must not wait for others (TBB's, say). It is ended after `seconds` of processor
 /// time (at least one), after 20 s and twice as long by the clock, or
-/// once it holds `bytes` more than this process. It hands out results through shared memory or an
+/// once it holds `bytes` more than this process. One that only sleeps for three seconds is ended, too, and
+/// tried once more: a thread of this process may have held a lock while it was copied. It hands out results through shared memory or an
 /// open file; `progress`, which may be empty, is asked now and then with `*done`, which `work` may
 /// raise through memory that both share.
 GuardResult run_guarded(const std::function<int()>& work, double seconds, double bytes,

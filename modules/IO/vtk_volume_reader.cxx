@@ -353,6 +353,10 @@ VtkVolume read_guarded(const std::string& path, std::uint64_t limit, const Progr
   { return write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size()); };
   const auto work = [&]() -> int
   {
+    if (ftruncate(file, 0) != 0 || lseek(file, 0, SEEK_SET) != 0) // it may be tried twice
+    {
+      return NoMemory;
+    }
     try
     {
       const VtkVolume volume = read(
