@@ -1,5 +1,7 @@
 #include "Transport/path_scene.h"
 
+#include "Transport/sparse_voxels.h"
+
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
@@ -9,6 +11,7 @@
 #include <cstddef>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace brume
 {
@@ -44,11 +47,12 @@ glm::dvec3 passing(double depth, const glm::dvec3& channels)
 
 }
 
-/// A path so far. Its events were drawn by the extinctions of one channel, the hero, which was drawn
-/// itself; chances[c] is the density of these events had it been channel c, by that of the hero. By
-/// the balance heuristic over the three each estimate counts by `chances` over their mean (B. Miller,
-/// I. Georgiev, W. Jarosz, A null-scattering path integral formulation of light transport, SIGGRAPH
-/// 2019; the hero: A. Wilkie et al., Hero wavelength spectral sampling, EGSR 2014).
+/// A path so far. Its events were drawn by the extinctions of one channel, the hero, which was
+/// drawn itself; chances[c] is the density of these events had it been channel c, by that of the
+/// hero. By the balance heuristic over the three each estimate counts by `chances` over their mean
+/// (B. Miller, I. Georgiev, W. Jarosz, A null-scattering path integral formulation of light
+/// transport, SIGGRAPH 2019; the hero: A. Wilkie et al., Hero wavelength spectral sampling, EGSR
+/// 2014).
 struct PathScene::Path
 {
   RandomStream& random;
@@ -138,9 +142,10 @@ PathScene::PathScene(const Scene& scene)
     const glm::dvec3& k = matter->channels();
     this->Coloured |= k.x != k.y || k.y != k.z;
   }
-  this->Glows = largest(scene.sky.radiance) > 0.0 || largest(scene.sky.ground) > 0.0 ||
-                std::any_of(this->Matter.begin(), this->Matter.end(),
-                  [](const auto& matter) { return matter->emits(); });
+  this->Glows =
+    largest(scene.sky.radiance) > 0.0 || largest(scene.sky.ground) > 0.0 ||
+    std::any_of(
+      this->Matter.begin(), this->Matter.end(), [](const auto& matter) { return matter->emits(); });
   double sum = 0.0;
   for (const Light& light : scene.lights)
   {
@@ -155,12 +160,119 @@ PathScene::PathScene(const Scene& scene)
   {
     up_to /= sum;
   }
+  this->find_packets();
+}
+
+void PathScene::find_packets()
+{
+  // More suns are drawn by their power first, which packets do not.
+  const bool even = this->Matter.size() == 1 && !this->Coloured &&
+                    this->Lamps.size() <= most_candidates &&
+                    std::none_of(this->Lamps.begin(),
+                      this->Lamps.end(),
+                      [](const Lamp& lamp) { return lamp.is_positional(); });
+  if (!even)
+  {
+    return;
+  }
+  const PathMatter& matter = *this->Matter.front();
+  const Volume& volume = matter.volume();
+  if (!matter.has_voxels() || matter.is_cut() || matter.emits())
+  {
+    return;
+  }
+  auto packets = std::make_unique<PathPacketScene>();
+  packets->matter = &matter;
+  const PathBricks& bricks = matter.bricks();
+  const double channel = matter.channels().x;
+  packets->bricks.reserve(2 * bricks.rate.size());
+  for (std::size_t i = 0; i < bricks.rate.size(); ++i)
+  {
+    // Bounds stay bounds in single precision.
+    const float rate = std::nextafter(static_cast<float>(bricks.rate[i]), HUGE_VALF);
+    const float least = std::nextafter(static_cast<float>(channel * bricks.least[i]), 0.0f);
+    packets->bricks.push_back(
+      bricks.rate[i] > 0.0 ? rate : -static_cast<float>(std::max(bricks.distance[i], 1)));
+    packets->bricks.push_back(least);
+  }
+  packets->shift = bricks.shift;
+  const Grid& grid = volume.grid;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    packets->brick_dims[axis] = bricks.dims[axis];
+    packets->lower[axis] = static_cast<float>(grid.lower(axis));
+    packets->upper[axis] = static_cast<float>(grid.upper(axis));
+    packets->first[axis] = grid.first[axis];
+    packets->last[axis] = grid.dims[axis] - 1;
+    packets->albedo[axis] = static_cast<float>(volume.medium.albedo[axis]);
+    packets->sky[axis] = static_cast<float>(this->TheScene.sky.radiance[axis]);
+    packets->ground[axis] = static_cast<float>(this->TheScene.sky.ground[axis]);
+    packets->up[axis] = static_cast<float>(this->TheScene.sky.up[axis]);
+    for (int column = 0; column < 3; ++column)
+    {
+      packets->index_from_world[3 * axis + column] =
+        static_cast<float>(matter.index_from_world()[column][axis]);
+      packets->data_from_index[3 * axis + column] =
+        static_cast<float>(matter.data_from_index()[column][axis]);
+    }
+  }
+  constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
+  if (2 * bricks.rate.size() > most)
+  {
+    return;
+  }
+  if (grid.voxels && grid.type == VoxelType::Float32 &&
+      grid.voxel_count() * grid.components <= most)
+  {
+    packets->voxels = static_cast<const float*>(grid.voxels) + grid.component;
+  }
+  else if (grid.sparse && grid.type == VoxelType::Float32 &&
+           grid.sparse->table().directory.empty() &&
+           grid.sparse->slot_count() * SparseVoxels::brick_voxels <= most)
+  {
+    packets->voxels = static_cast<const float*>(grid.sparse->pool());
+    packets->table = &grid.sparse->table();
+  }
+  packets->components = grid.components;
+  packets->scale = static_cast<float>(volume.density.extinction * volume.weight * channel);
+  for (const Lamp& lamp : this->Lamps)
+  {
+    const glm::dvec3 offset = lamp.offset(glm::dvec3(0.0));
+    const glm::dvec3 toward = -lamp.travel(offset);
+    const glm::dvec3 light = lamp.irradiance(offset);
+    packets->suns.push_back({ { float(toward.x), float(toward.y), float(toward.z) },
+      { float(light.x), float(light.y), float(light.z) } });
+  }
+  packets->glows = this->Glows;
+  this->Packets = std::move(packets);
+}
+
+bool PathScene::find_start(const glm::dvec3& begin,
+  const glm::dvec3& along,
+  double length,
+  PathStart& start) const
+{
+  const MatterRay ray = this->Matter.front()->ray(begin, along);
+  const double to = std::min(ray.to, length);
+  if (!(ray.from < to))
+  {
+    return false;
+  }
+  const glm::dvec3 place = ray.begin + ray.from * ray.along;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    start.begin[axis] = static_cast<float>(place[axis]);
+    start.direction[axis] = static_cast<float>(along[axis]);
+  }
+  start.length = static_cast<float>(to - ray.from);
+  return true;
 }
 
 bool PathScene::can_send() const
 {
   const bool lit = !this->Lamps.empty() || this->Glows;
-  return std::any_of(this->Matter.begin(), this->Matter.end(),
+  return std::any_of(this->Matter.begin(),
+    this->Matter.end(),
     [lit](const auto& matter) { return matter->emits() || (lit && matter->scatters()); });
 }
 
@@ -179,8 +291,10 @@ std::size_t PathScene::non_finite_voxels() const
 
 bool PathScene::has_kinks() const
 {
-  return std::any_of(this->Media.begin(), this->Media.end(),
-    [](const ReferenceMedium& medium) { return medium.is_density() && medium.ranges().lower < 0.0f; });
+  return std::any_of(this->Media.begin(),
+    this->Media.end(),
+    [](const ReferenceMedium& medium)
+    { return medium.is_density() && medium.ranges().lower < 0.0f; });
 }
 
 /// The first real collision, if there is one. Of several matters the tentative collisions are taken
@@ -224,8 +338,9 @@ bool PathScene::collide(const glm::dvec3& begin,
   }
   while (count > 0)
   {
-    Tracker& first = *std::min_element(
-      trackers, trackers + count, [](const Tracker& a, const Tracker& b) { return a.at() < b.at(); });
+    Tracker& first = *std::min_element(trackers,
+      trackers + count,
+      [](const Tracker& a, const Tracker& b) { return a.at() < b.at(); });
     if (first.at() == infinity)
     {
       return false;
@@ -261,8 +376,8 @@ bool PathScene::collide(const glm::dvec3& begin,
 }
 
 /// Residual ratio tracking: what is in a brick everywhere dims in closed form, and collisions with
-/// the rest count by what they let through (J. Novák, A. Selle, W. Jarosz, Residual ratio tracking for
-/// estimating attenuation in participating media, SIGGRAPH Asia 2014).
+/// the rest count by what they let through (J. Novák, A. Selle, W. Jarosz, Residual ratio tracking
+/// for estimating attenuation in participating media, SIGGRAPH Asia 2014).
 glm::dvec3 PathScene::transmittance(const glm::dvec3& begin,
   const glm::dvec3& along,
   double length,
@@ -319,9 +434,10 @@ glm::dvec3 PathScene::transmittance(const glm::dvec3& begin,
   return passes;
 }
 
-/// One lamp is followed, with a chance that is its share of what would arrive from all without shadows.
-/// Of many lamps a few are drawn by their power first, and that is done among them, which is unbiased,
-/// too (J. Talbot, D. Cline, P. Egbert, Importance resampling for global illumination, EGSR 2005).
+/// One lamp is followed, with a chance that is its share of what would arrive from all without
+/// shadows. Of many lamps a few are drawn by their power first, and that is done among them, which
+/// is unbiased, too (J. Talbot, D. Cline, P. Egbert, Importance resampling for global illumination,
+/// EGSR 2005).
 glm::dvec3 PathScene::lit(const glm::dvec3& place,
   const glm::dvec3& along,
   const PhaseSampler& phase,

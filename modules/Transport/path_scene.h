@@ -4,6 +4,7 @@
 
 #include "Transport/lamp.h"
 #include "Transport/path_matter.h"
+#include "Transport/path_packets.h"
 #include "Transport/random_stream.h"
 #include "Transport/reference_medium.h"
 #include "Transport/scene.h"
@@ -30,14 +31,14 @@ struct PathCounts
 class PathScene
 {
 public:
-  /// Keeps a reference to the scene. Throws std::invalid_argument for what cannot be traced: another
-  /// blend mode than composite.
+  /// Keeps a reference to the scene. Throws std::invalid_argument for what cannot be traced:
+  /// another blend mode than composite.
   explicit PathScene(const Scene& scene);
 
-  /// An estimate of the radiance that arrives at `begin` from the direction `along` (a unit vector of
-  /// the world), from no farther than `length`; light from behind that was not scattered does not
-  /// count. Unbiased: its expectation is the solution of the radiative transfer equation with up to
-  /// `most_scatterings` scatterings (0: any number).
+  /// An estimate of the radiance that arrives at `begin` from the direction `along` (a unit vector
+  /// of the world), from no farther than `length`; light from behind that was not scattered does
+  /// not count. Unbiased: its expectation is the solution of the radiative transfer equation with
+  /// up to `most_scatterings` scatterings (0: any number).
   glm::dvec3 radiance(const glm::dvec3& begin,
     const glm::dvec3& along,
     double length,
@@ -45,13 +46,22 @@ public:
     RandomStream& random,
     PathCounts& counts) const;
 
+  /// What trace_paths() needs; null for a scene that it does not know.
+  const PathPacketScene* packets() const { return this->Packets.get(); }
+  /// A path of radiance() as trace_paths() takes it, but for its pixel; false where it meets
+  /// nothing.
+  bool find_start(const glm::dvec3& begin,
+    const glm::dvec3& along,
+    double length,
+    PathStart& start) const;
+
   /// Whether any ray can meet matter that sends light.
   bool can_send() const;
 
   std::size_t non_finite_voxels() const;
 
-  /// Whether a density falls below 0 somewhere, where it counts as 0: the extinction then has a kink
-  /// inside a cell.
+  /// Whether a density falls below 0 somewhere, where it counts as 0: the extinction then has a
+  /// kink inside a cell.
   bool has_kinks() const;
 
 private:
@@ -75,10 +85,12 @@ private:
     double length,
     Path& path) const;
   glm::dvec3 sky(const glm::dvec3& direction) const;
+  void find_packets();
 
   const Scene& TheScene;
   std::vector<ReferenceMedium> Media;
   std::vector<std::unique_ptr<PathMatter>> Matter;
+  std::unique_ptr<PathPacketScene> Packets;
   std::vector<Lamp> Lamps;
   std::vector<double> LampUpTo; ///< sums of the chances to be taken; the last is 1
   bool Glows = false;           ///< light comes from elsewhere than lamps: sky, ground, matter

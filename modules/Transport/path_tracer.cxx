@@ -1,11 +1,10 @@
 #include "Transport/path_tracer.h"
 
 #include "Transport/path_error.h"
+#include "Transport/path_pixels.h"
 #include "Transport/path_scene.h"
 #include "Transport/reference_ray.h"
 #include "Transport/step_control.h"
-
-#include <glm/geometric.hpp>
 
 #include <tbb/blocked_range.h>
 #include <tbb/info.h>
@@ -34,6 +33,9 @@ constexpr int fewest_samples = 16;
 
 /// Paths a pixel of one pass, at the most: a pass is what is waited for when time is short.
 constexpr int most_of_pass = 64;
+
+/// Paths that are handed out together, about.
+constexpr int paths_at_once = 4096;
 
 double seconds_since(Clock::time_point start)
 {
@@ -80,34 +82,38 @@ struct PathTracer::Kept
   Marcher Absorption;
   int Width = 0;
   int Height = 0;
-  std::vector<double> Sums;    ///< R, G, B a pixel, over its paths
-  std::vector<double> Squares; ///< the same of squares
-  std::vector<int> Samples;    ///< paths of each pixel
-  Film Behind;                 ///< transmittance and depth
+  PathSums Paths;
+  Film Behind; ///< transmittance and depth
 
   void begin(const Film& film)
   {
     this->Width = 0; // until there is something to go on from
     this->Height = 0;
-    this->Sums.assign(3 * film.size(), 0.0);
-    this->Squares.assign(3 * film.size(), 0.0);
-    this->Samples.assign(film.size(), 0);
+    this->Paths = PathSums(film.size());
     this->Behind = Film(film.width, film.height);
   }
   bool fits(const Film& film) const
   {
     return this->Width == film.width && this->Height == film.height;
   }
-  int fewest() const { return *std::min_element(this->Samples.begin(), this->Samples.end()); }
+  int fewest() const
+  {
+    return *std::min_element(this->Paths.samples.begin(), this->Paths.samples.end());
+  }
+  int fewest_of_row(int y) const
+  {
+    const auto row = this->Paths.samples.begin() + static_cast<std::ptrdiff_t>(y) * this->Width;
+    return *std::min_element(row, row + this->Width);
+  }
 
   /// The variance of the mean of a pixel's paths.
   double variance(std::size_t pixel, int channel) const
   {
-    const int n = this->Samples[pixel];
-    const double sum = this->Sums[3 * pixel + channel];
+    const int n = this->Paths.samples[pixel];
+    const double sum = this->Paths.sums[3 * pixel + channel];
     const double mean = sum / n;
     return n < 2 ? 0.0
-                 : std::max(this->Squares[3 * pixel + channel] - sum * mean, 0.0) /
+                 : std::max(this->Paths.squares[3 * pixel + channel] - sum * mean, 0.0) /
                      (static_cast<double>(n) * (n - 1));
   }
   PathError error() const
@@ -145,11 +151,11 @@ struct PathTracer::Kept
     film.depth = this->Behind.depth;
     for (std::size_t pixel = 0; pixel < film.size(); ++pixel)
     {
-      const int n = std::max(this->Samples[pixel], 1);
+      const int n = std::max(this->Paths.samples[pixel], 1);
       double largest = 0.0;
       for (int c = 0; c < 3; ++c)
       {
-        film.radiance[c][pixel] = static_cast<float>(this->Sums[3 * pixel + c] / n);
+        film.radiance[c][pixel] = static_cast<float>(this->Paths.sums[3 * pixel + c] / n);
         largest = std::max(largest, this->variance(pixel, c));
       }
       film.error[pixel] = static_cast<float>(3.0 * std::sqrt(largest));
@@ -174,8 +180,7 @@ PathStatistics PathTracer::render(const Scene& scene,
   PathStatistics statistics;
   const auto begin = Clock::now();
   const PathScene paths(scene);
-  statistics.threads =
-    settings.threads > 0 ? settings.threads : tbb::info::default_concurrency();
+  statistics.threads = settings.threads > 0 ? settings.threads : tbb::info::default_concurrency();
   statistics.non_finite_voxels = paths.non_finite_voxels();
   if (!settings.resume || !kept.fits(film))
   {
@@ -188,10 +193,10 @@ PathStatistics PathTracer::render(const Scene& scene,
     const bool exact = follows_rule(dark, StepRule::Cells) && !paths.has_kinks();
     march.rule = exact ? StepRule::Cells : StepRule::Midpoint;
     march.step = march.rule == StepRule::Cells ? smallest_voxel_edge(scene) : step;
-    const bool whole = kept.Absorption
-                         .render(dark, march, kept.Behind,
-                           [&](double) { return !progress || progress(0.0); })
-                         .completed;
+    const bool whole =
+      kept.Absorption
+        .render(dark, march, kept.Behind, [&](double) { return !progress || progress(0.0); })
+        .completed;
     if (!whole)
     {
       return statistics;
@@ -229,32 +234,23 @@ PathStatistics PathTracer::render(const Scene& scene,
             for (int y = range.begin(); y != range.end(); ++y)
             {
               PathCounts counts;
-              for (int x = 0; x < film.width && !aborted; ++x)
+              // So many pixels at once that packets of paths are full, and no wait is long.
+              const int more = std::max(target - kept.fewest_of_row(y), 1);
+              const int together = std::max(paths_at_once / more, 1);
+              for (int x = 0; x < film.width && !aborted; x += together)
               {
-                const std::size_t pixel = static_cast<std::size_t>(y) * film.width + x;
-                const int first = kept.Samples[pixel];
-                kept.Samples[pixel] = std::max(target, first);
-                const PixelRay ray = rays.ray(x, y);
-                if (ray.empty() || !(ray.world_length > 0.0))
-                {
-                  continue;
-                }
-                const glm::dvec3 along = ray.world_along / ray.world_length;
-                double* sums = &kept.Sums[3 * pixel];
-                double* squares = &kept.Squares[3 * pixel];
-                for (int n = first; n < target; ++n)
-                {
-                  RandomStream random(settings.seed, pixel, static_cast<std::uint32_t>(n));
-                  const glm::dvec3 radiance = paths.radiance(ray.world_begin, along,
-                    ray.world_length, settings.most_scatterings, random, counts);
-                  for (int c = 0; c < 3; ++c)
-                  {
-                    sums[c] += radiance[c];
-                    squares[c] += radiance[c] * radiance[c];
-                  }
-                }
-                traced += static_cast<std::uint64_t>(std::max(target - first, 0));
-                if (progress && x % 16 == 15 && std::this_thread::get_id() == caller &&
+                traced += trace_pixels(paths,
+                  rays,
+                  film.width,
+                  y,
+                  x,
+                  std::min(x + together, film.width),
+                  target,
+                  settings.most_scatterings,
+                  settings.seed,
+                  kept.Paths,
+                  counts);
+                if (progress && std::this_thread::get_id() == caller &&
                     !progress(before + part * rows / film.height))
                 {
                   aborted = true;
@@ -284,7 +280,8 @@ PathStatistics PathTracer::render(const Scene& scene,
     if (settings.seconds > 0.0 && done > 0)
     {
       const double passed = seconds_since(start);
-      more = std::min(more, std::floor(done * (settings.seconds - passed) / std::max(passed, 1e-9)));
+      more =
+        std::min(more, std::floor(done * (settings.seconds - passed) / std::max(passed, 1e-9)));
       if (more < 1.0)
       {
         break;
@@ -295,7 +292,7 @@ PathStatistics PathTracer::render(const Scene& scene,
   }
   if (!paths.can_send())
   {
-    std::fill(kept.Samples.begin(), kept.Samples.end(), settings.samples_per_pixel);
+    std::fill(kept.Paths.samples.begin(), kept.Paths.samples.end(), settings.samples_per_pixel);
   }
   kept.show(film);
   statistics.samples_per_pixel = kept.fewest();

@@ -20,18 +20,18 @@ struct PathSettings
   int samples_per_pixel = 64;
   /// Stops sooner when the estimated error is no larger; see PathStatistics. 0: never.
   double tolerance = 0.0;
-  /// Stops sooner rather than trace paths for longer than this, in seconds, after one path a pixel. 0:
-  /// never.
+  /// Stops sooner rather than trace paths for longer than this, in seconds, after one path a pixel.
+  /// 0: never.
   double seconds = 0.0;
   /// Scatterings of a path, at the most; 0: any number. With 1 the picture is the ray marcher's
   /// without octaves, but for sky and glow, of which the marcher knows less.
   int most_scatterings = 0;
-  /// Chooses among all pictures of this noise: same seed, same picture, bit for bit, for every number
-  /// of threads.
+  /// Chooses among all pictures of this noise: same seed, same picture, bit for bit, for every
+  /// number of threads.
   std::uint32_t seed = 1;
   /// Step of the transmittance through classified matter, in the data's units; 0: an eighth of the
-  /// smallest voxel edge. One density that is drawn as one box, and is grey and nowhere negative, needs
-  /// none.
+  /// smallest voxel edge. One density that is drawn as one box, and is grey and nowhere negative,
+  /// needs none.
   double step = 0.0;
   /// Goes on where the last render() of the same scene stopped, with its paths counted in: for
   /// pictures that refine. The caller vouches that nothing else has changed.
@@ -49,10 +49,10 @@ struct PathStatistics
   std::uint64_t collisions = 0; ///< places at which matter was read, of this call
   std::uint64_t scatterings = 0;
   std::uint64_t shadow_rays = 0;
-  /// What 99.9 % of the pixels' errors of radiance are expected to be below, as a fraction of white:
-  /// normally distributed with the largest standard error of a pixel's channels, and no less than the mean of
-  /// the pixels around it, as samples that are all alike tell little. +infinity before sixteen paths a
-  /// pixel. Light that hardly any path finds is not in it.
+  /// What 99.9 % of the pixels' errors of radiance are expected to be below, as a fraction of
+  /// white: normally distributed with the largest standard error of a pixel's channels, and no less
+  /// than the mean of the pixels around it, as samples that are all alike tell little. +infinity
+  /// before sixteen paths a pixel. Light that hardly any path finds is not in it.
   double estimated_error = std::numeric_limits<double>::infinity();
   /// Root mean square of the standard errors, over pixels and channels.
   double rms_error = std::numeric_limits<double>::infinity();
@@ -63,7 +63,8 @@ struct PathStatistics
 
 /// Draws scenes by tracing paths in composite mode. Film::radiance is the mean of the paths through
 /// each pixel's centre; Film::transmittance and depth are the ray marcher's, whose error is far
-/// smaller; Film::error is three times the largest channel's standard error, from the second path on.
+/// smaller; Film::error is three times the largest channel's standard error, from the second path
+/// on.
 ///
 /// What is not simulated: gradient shading (the phase function holds instead), octaves (all
 /// scatterings are followed), silver lining and powder (they are no physics), fog.
@@ -77,8 +78,8 @@ public:
   PathTracer(const PathTracer&) = delete;
   PathTracer& operator=(const PathTracer&) = delete;
 
-  /// Fills the film, whose size is the picture's. Throws std::invalid_argument for a scene or settings
-  /// that cannot be drawn.
+  /// Fills the film, whose size is the picture's. Throws std::invalid_argument for a scene or
+  /// settings that cannot be drawn.
   PathStatistics render(const Scene& scene,
     const PathSettings& settings,
     Film& film,

@@ -190,7 +190,7 @@ TEST(PathTracing, HalfSpaceFollowsChandrasekhar)
         slab.add_sun(suns[c], 40.0, colour);
       }
       slab.scene.camera = narrow(slab, zenith).camera(1.0);
-      const Mean mean = mean_of(trace(slab.scene, 32, 3000));
+      const Mean mean = mean_of(trace(slab.scene, 32, 3400));
       const double mu = std::cos(zenith * pi / 180.0);
       for (int c = 0; c < 3; ++c)
       {

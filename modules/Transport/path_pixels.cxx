@@ -1,0 +1,102 @@
+#include "Transport/path_pixels.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+
+namespace brume
+{
+
+namespace
+{
+
+void add(PathSums& result, std::size_t pixel, const glm::dvec3& radiance)
+{
+  for (int c = 0; c < 3; ++c)
+  {
+    result.sums[3 * pixel + c] += radiance[c];
+    result.squares[3 * pixel + c] += radiance[c] * radiance[c];
+  }
+}
+
+}
+
+std::uint64_t trace_pixels(const PathScene& scene,
+  const ReferenceRays& rays,
+  int width,
+  int y,
+  int from,
+  int to,
+  int target,
+  int most_scatterings,
+  std::uint32_t seed,
+  PathSums& result,
+  PathCounts& counts)
+{
+  std::uint64_t traced = 0;
+  std::vector<PathStart> starts; // all have as many paths to go
+  std::vector<float> radiance;
+  int samples = 0;
+  const auto flush = [&]
+  {
+    if (starts.empty())
+    {
+      return;
+    }
+    radiance.resize(starts.size() * samples * 3);
+    trace_paths(*scene.packets(), starts, samples, most_scatterings, seed, radiance.data(), counts);
+    const float* next = radiance.data();
+    for (const PathStart& start : starts)
+    {
+      for (int n = 0; n < samples; ++n, next += 3)
+      {
+        add(result, start.pixel, glm::dvec3(next[0], next[1], next[2]));
+      }
+    }
+    starts.clear();
+  };
+  for (int x = from; x < to; ++x)
+  {
+    const std::size_t pixel = static_cast<std::size_t>(y) * width + x;
+    const int first = result.samples[pixel];
+    if (first >= target)
+    {
+      continue;
+    }
+    result.samples[pixel] = target;
+    const PixelRay ray = rays.ray(x, y);
+    if (ray.empty() || !(ray.world_length > 0.0))
+    {
+      continue;
+    }
+    traced += static_cast<std::uint64_t>(target - first);
+    const glm::dvec3 along = ray.world_along / ray.world_length;
+    if (scene.packets())
+    {
+      PathStart start;
+      start.pixel = static_cast<std::uint32_t>(pixel);
+      start.first = static_cast<std::uint32_t>(first);
+      if (scene.find_start(ray.world_begin, along, ray.world_length, start))
+      {
+        if (samples != target - first)
+        {
+          flush();
+          samples = target - first;
+        }
+        starts.push_back(start);
+      }
+      continue;
+    }
+    for (int n = first; n < target; ++n)
+    {
+      RandomStream random(seed, pixel, static_cast<std::uint32_t>(n));
+      add(result,
+        pixel,
+        scene.radiance(ray.world_begin, along, ray.world_length, most_scatterings, random, counts));
+    }
+  }
+  flush();
+  return traced;
+}
+
+}
