@@ -35,18 +35,15 @@ constexpr int lights_of_truth = 64;
 
 std::string not_drawn_by_paths(const VolumeScene& scene)
 {
-  if (scene.fog)
-  {
-    return "paths are not traced through fog";
-  }
   return not_drawn_by(scene.options.modes, MapperKind::PathTrace);
 }
 
 bool is_truth_by_paths(const VolumeScene& scene)
 {
   const MediumOptions& medium = scene.options.medium;
-  return scene.medium && medium.albedo != Triple{ 0.0, 0.0, 0.0 } && !medium.silver_lining &&
-    !medium.powder && !scene.volume->GetProperty()->GetShade() && not_drawn_by_paths(scene).empty();
+  const Triple none{ 0.0, 0.0, 0.0 };
+  const bool scatters = (scene.medium && medium.albedo != none) || (scene.fog && medium.fog_albedo != none);
+  return scatters && !medium.silver_lining && !medium.powder && !scene.volume->GetProperty()->GetShade() && not_drawn_by_paths(scene).empty();
 }
 
 CostPaths::CostPaths(const VolumeScene& scene, const SurfacePicture& surfaces)

@@ -90,13 +90,13 @@ expect_output '^The truth holds every scattering'
 [ "$(figure_of out "p['shadows','volume 1/2 voxel']['own_errors']['rms'] < 0.2 * p['shadows','volume 8 voxels']['own_errors']['rms']")" = True ] ||
   fail "expected a finer shadow volume to be nearer to exact rays"
 
-case_ "fog: the truth holds one scattering"
+case_ "a rim that is no physics: the truth holds one scattering"
 blob ../blob.nrrd
-run cost ../blob.nrrd --output out "${small[@]}" "${lit[@]}" --fog-extinction 0.01 --knobs step,paths,octaves \
+run cost ../blob.nrrd --output out "${small[@]}" "${lit[@]}" --silver-lining 0.5 --knobs step,paths,octaves \
   --mappers raymarch,pathtrace
 expect_success
 [ "$(figure_of out "d['truth']['kind'], [k['skipped'] is None for k in d['knobs']]")" = \
-  "march [True, False, False]" ] || fail "expected a truth by marching, and no paths through fog"
+  "march [True, False, False]" ] || fail "expected a truth by marching, and neither paths nor octaves against it"
 
 case_ "no time: what was dropped is named, and there is a result"
 blob ../blob.nrrd
