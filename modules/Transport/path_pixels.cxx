@@ -1,7 +1,5 @@
 #include "Transport/path_pixels.h"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 
 namespace brume
@@ -22,13 +20,12 @@ void add(PathSums& result, std::size_t pixel, const glm::dvec3& radiance)
 }
 
 std::uint64_t trace_pixels(const PathScene& scene,
-  const ReferenceRays& rays,
+  const PathSights& sights,
   int width,
   int y,
   int from,
   int to,
   int target,
-  int most_scatterings,
   std::uint32_t seed,
   PathSums& result,
   PathCounts& counts)
@@ -44,7 +41,7 @@ std::uint64_t trace_pixels(const PathScene& scene,
       return;
     }
     radiance.resize(starts.size() * samples * 3);
-    trace_paths(*scene.packets(), starts, samples, most_scatterings, seed, radiance.data(), counts);
+    trace_paths(*scene.packets(), starts, samples, scene.most_scatterings(), seed, radiance.data(), counts);
     const float* next = radiance.data();
     for (const PathStart& start : starts)
     {
@@ -64,19 +61,18 @@ std::uint64_t trace_pixels(const PathScene& scene,
       continue;
     }
     result.samples[pixel] = target;
-    const PixelRay ray = rays.ray(x, y);
-    if (ray.empty() || !(ray.world_length > 0.0))
+    Sight sight;
+    if (!sights.find(x, y, sight))
     {
       continue;
     }
     traced += static_cast<std::uint64_t>(target - first);
-    const glm::dvec3 along = ray.world_along / ray.world_length;
     if (scene.packets())
     {
       PathStart start;
       start.pixel = static_cast<std::uint32_t>(pixel);
       start.first = static_cast<std::uint32_t>(first);
-      if (scene.find_start(ray.world_begin, along, ray.world_length, start))
+      if (scene.find_start(sight, start))
       {
         if (samples != target - first)
         {
@@ -90,9 +86,7 @@ std::uint64_t trace_pixels(const PathScene& scene,
     for (int n = first; n < target; ++n)
     {
       RandomStream random(seed, pixel, static_cast<std::uint32_t>(n));
-      add(result,
-        pixel,
-        scene.radiance(ray.world_begin, along, ray.world_length, most_scatterings, random, counts));
+      add(result, pixel, scene.radiance(sight, random, counts));
     }
   }
   flush();

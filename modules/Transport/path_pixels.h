@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Transport/path_scene.h"
-#include "Transport/reference_ray.h"
+#include "Transport/path_sights.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -30,13 +30,12 @@ struct PathSums
 /// allows it, else one by one. The sums do not depend on how pixels and paths are cut into calls.
 /// Returns the number of paths traced.
 std::uint64_t trace_pixels(const PathScene& scene,
-  const ReferenceRays& rays,
+  const PathSights& sights,
   int width,
   int y,
   int from,
   int to,
   int target,
-  int most_scatterings,
   std::uint32_t seed,
   PathSums& result,
   PathCounts& counts);

@@ -3,7 +3,7 @@
 #include "Transport/path_error.h"
 #include "Transport/path_pixels.h"
 #include "Transport/path_scene.h"
-#include "Transport/reference_ray.h"
+#include "Transport/path_sights.h"
 #include "Transport/step_control.h"
 
 #include <tbb/blocked_range.h>
@@ -42,7 +42,7 @@ double seconds_since(Clock::time_point start)
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-void check(const Scene& scene, const PathSettings& settings, const Film& film)
+void check(const PathSettings& settings, const Film& film)
 {
   if (settings.samples_per_pixel < 1 || !(settings.tolerance >= 0.0) ||
       !(settings.seconds >= 0.0) || settings.most_scatterings < 0 || !(settings.step >= 0.0))
@@ -54,11 +54,6 @@ void check(const Scene& scene, const PathSettings& settings, const Film& film)
   {
     throw std::invalid_argument("the film has no pixels");
   }
-  if (scene.fog.enabled)
-  {
-    throw std::invalid_argument("paths are not traced through fog without bounds yet: take a ray "
-                                "march, or leave the fog out");
-  }
 }
 
 /// The scene as what is behind it sees it: it dims, and nothing else.
@@ -66,7 +61,7 @@ Scene without_light(const Scene& scene)
 {
   Scene dark = scene;
   dark.lights.clear();
-  dark.sky = Sky();
+  dark.sky.radiance = dark.sky.ground = glm::dvec3(0.0);
   for (Volume& volume : dark.volumes)
   {
     volume.medium = Medium();
@@ -175,11 +170,12 @@ PathStatistics PathTracer::render(const Scene& scene,
   Film& film,
   const Progress& progress)
 {
-  check(scene, settings, film);
+  check(settings, film);
   Kept& kept = *this->Internal;
   PathStatistics statistics;
   const auto begin = Clock::now();
-  const PathScene paths(scene);
+  const PathScene paths(
+    scene, settings.most_scatterings, settings.environment, settings.world_from_environment);
   statistics.threads = settings.threads > 0 ? settings.threads : tbb::info::default_concurrency();
   statistics.non_finite_voxels = paths.non_finite_voxels();
   if (!settings.resume || !kept.fits(film))
@@ -189,7 +185,9 @@ PathStatistics PathTracer::render(const Scene& scene,
     march.leave_error = 1e-5;
     march.threads = settings.threads;
     const Scene dark = without_light(scene);
-    const double step = settings.step > 0.0 ? settings.step : 0.125 * smallest_voxel_edge(scene);
+    const double step = settings.step > 0.0      ? settings.step
+                        : scene.volumes.empty() ? 1.0
+                                                : 0.125 * smallest_voxel_edge(scene);
     const bool exact = follows_rule(dark, StepRule::Cells) && !paths.has_kinks();
     march.rule = exact ? StepRule::Cells : StepRule::Midpoint;
     march.step = march.rule == StepRule::Cells ? smallest_voxel_edge(scene) : step;
@@ -207,7 +205,7 @@ PathStatistics PathTracer::render(const Scene& scene,
   statistics.seconds_prepare = seconds_since(begin);
 
   const auto start = Clock::now();
-  const ReferenceRays rays(scene, film.width, film.height);
+  const PathSights sights(scene, film.width, film.height);
   const std::thread::id caller = std::this_thread::get_id();
   std::atomic<bool> aborted{ false };
   std::atomic<std::uint64_t> collisions{ 0 };
@@ -240,13 +238,12 @@ PathStatistics PathTracer::render(const Scene& scene,
               for (int x = 0; x < film.width && !aborted; x += together)
               {
                 traced += trace_pixels(paths,
-                  rays,
+                  sights,
                   film.width,
                   y,
                   x,
                   std::min(x + together, film.width),
                   target,
-                  settings.most_scatterings,
                   settings.seed,
                   kept.Paths,
                   counts);

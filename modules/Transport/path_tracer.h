@@ -6,6 +6,8 @@
 #include "Transport/marcher.h"
 #include "Transport/scene.h"
 
+#include <glm/mat3x3.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -13,6 +15,8 @@
 
 namespace brume
 {
+
+struct EnvironmentMap;
 
 struct PathSettings
 {
@@ -33,6 +37,10 @@ struct PathSettings
   /// smallest voxel edge. One density that is drawn as one box, and is grey and nowhere negative,
   /// needs none.
   double step = 0.0;
+  /// Light from all around (environment.h), added to the scene's lights and sky: itself, not as lights
+  /// in its place. Null: none.
+  std::shared_ptr<const EnvironmentMap> environment;
+  glm::dmat3 world_from_environment{ 1.0 };
   /// Goes on where the last render() of the same scene stopped, with its paths counted in: for
   /// pictures that refine. The caller vouches that nothing else has changed.
   bool resume = false;
@@ -67,7 +75,12 @@ struct PathStatistics
 /// on.
 ///
 /// What is not simulated: gradient shading (the phase function holds instead), octaves (all
-/// scatterings are followed), silver lining and powder (they are no physics), fog.
+/// scatterings are followed), silver lining and powder (they are no physics).
+///
+/// Fog without bounds scatters light as often as volumes do, and they throw shadows on it. Without
+/// falloff it has no upper end, and light from infinity reaches all of it undimmed (fog.h): that has a
+/// meaning for one scattering alone, and is refused with more. Without falloff and with an albedo of 1
+/// paths have no end, and scatterings need a limit.
 ///
 /// Not to be used from two threads at once; two tracers may be.
 class PathTracer

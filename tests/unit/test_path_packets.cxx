@@ -78,22 +78,22 @@ void expect_alike(const std::string& name,
   int count = paths)
 {
   SCOPED_TRACE(name);
-  const PathScene path_scene(scene);
+  const PathScene path_scene(scene, most_scatterings);
   ASSERT_TRUE(path_scene.packets());
   const glm::dvec3 aims[] = { { 9.1, 8.2, 8.4 }, { 14.3, 3.1, 11.7 }, { 4.2, 12.9, 5.6 } };
   for (const glm::dvec3& aim : aims)
   {
     const glm::dvec3 along = glm::normalize(glm::dvec3(-0.5, -0.6, -0.62));
-    const glm::dvec3 begin = aim - 60.0 * along;
+    const Sight sight{ aim - 60.0 * along, along, 1e9 };
     PathCounts counts;
     std::vector<glm::dvec3> singles;
     for (int n = 0; n < count; ++n)
     {
       RandomStream random(3, 1, static_cast<std::uint32_t>(n));
-      singles.push_back(path_scene.radiance(begin, along, 1e9, most_scatterings, random, counts));
+      singles.push_back(path_scene.radiance(sight, random, counts));
     }
     PathStart start;
-    ASSERT_TRUE(path_scene.find_start(begin, along, 1e9, start));
+    ASSERT_TRUE(path_scene.find_start(sight, start));
     std::vector<float> radiance(3 * count);
     PathCounts packet_counts;
     trace_paths(
@@ -209,11 +209,11 @@ TEST(PathPackets, DoNotDependOnTheirCompany)
   const auto voxels = std::make_shared<Voxels<float>>(
     20, 18, 17, [](int i, int j, int k) { return float(wave(i, j, k)); });
   const Scene scene = lit_density(voxels->grid(), 1.5);
-  const PathScene path_scene(scene);
+  const PathScene path_scene(scene, 0);
   ASSERT_TRUE(path_scene.packets());
   PathStart start;
   const glm::dvec3 along = glm::normalize(glm::dvec3(-0.5, -0.6, -0.62));
-  ASSERT_TRUE(path_scene.find_start(glm::dvec3(9.1, 8.2, 8.4) - 60.0 * along, along, 1e9, start));
+  ASSERT_TRUE(path_scene.find_start({ glm::dvec3(9.1, 8.2, 8.4) - 60.0 * along, along, 1e9 }, start));
   constexpr int count = 500;
   std::vector<float> whole(3 * count);
   PathCounts counts;
