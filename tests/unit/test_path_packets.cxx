@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
 #include <cmath>
 #include <functional>
@@ -226,4 +227,36 @@ TEST(PathPackets, DoNotDependOnTheirCompany)
     trace_paths(*path_scene.packets(), { start }, size, 0, 1, parts.data() + 3 * first, counts);
   }
   EXPECT_EQ(whole, parts);
+}
+
+// The last digits of a target may send a path another way now and then, but no more.
+TEST(PathPackets, AreAlikeOnEveryTarget)
+{
+  const auto voxels = std::make_shared<Voxels<float>>(
+    20, 18, 17, [](int i, int j, int k) { return float(0.1 + wave(i, j, k)); });
+  const Scene scene = lit_density(voxels->grid(), 1.0);
+  const PathScene path_scene(scene, 0);
+  ASSERT_TRUE(path_scene.packets());
+  PathStart start;
+  const glm::dvec3 along = glm::normalize(glm::dvec3(-0.5, -0.6, -0.62));
+  ASSERT_TRUE(path_scene.find_start({ glm::dvec3(9.1, 8.2, 8.4) - 60.0 * along, along, 1e9 }, start));
+  constexpr int count = 3000;
+  std::vector<float> first;
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
+  {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    std::vector<float> radiance(3 * count);
+    PathCounts counts;
+    trace_paths(*path_scene.packets(), { start }, count, 0, 1, radiance.data(), counts);
+    first = first.empty() ? radiance : first;
+    int other = 0;
+    for (std::size_t i = 0; i < radiance.size(); ++i)
+    {
+      other += !(std::abs(radiance[i] - first[i]) <= 1e-3f * (first[i] + 1e-3f));
+    }
+    EXPECT_LE(other, 3 * count / 50) << hwy::TargetName(target);
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
