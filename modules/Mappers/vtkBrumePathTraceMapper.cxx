@@ -7,6 +7,7 @@
 #include "Transport/path_tracer.h"
 
 #include "vtkBrumeEffectPlan.h"
+#include "vtkBrumeSky.h"
 #include "vtkObjectFactory.h"
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
@@ -47,11 +48,16 @@ bool vtkBrumePathTraceMapper::RenderScene(brume::Scene& scene, brume::Film& film
   settings.most_scatterings = this->MaximumScatterings;
   settings.seed = this->Seed;
   settings.threads = this->NumberOfThreads;
+  if (vtkBrumeSky* sky = this->GetSkyInUse())
+  {
+    settings.environment = sky->TakeEnvironment(scene.lights);
+  }
   const brume::PathStatistics paths = this->Internal->Tracer.render(
     scene, settings, film, [this](double fraction) { return this->TellProgress(fraction); });
   this->SecondsRender = paths.seconds;
 
-  const brume::EffectPlan plan = brume::plan_of_paths(scene, this->MaximumScatterings);
+  const brume::EffectPlan plan = brume::plan_of_paths(
+    scene, this->MaximumScatterings, settings.environment != nullptr);
   this->GetEffectPlan()->SetPlan(plan);
   const bool window = this->FinalColorWindow != 1.0f || this->FinalColorLevel != 0.5f;
   nlohmann::json statistics;

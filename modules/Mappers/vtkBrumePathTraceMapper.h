@@ -23,6 +23,9 @@
  * within it) or at the TimeBudget, whichever comes first. The same Seed gives the same picture, bit for
  * bit, for every number of threads.
  *
+ * An environment map lights media as it is, not by directional lights in its place
+ * (vtkBrumeSky::NumberOfEnvironmentLights).
+ *
  * What is not simulated, and told in the statistics: octaves (all scatterings are followed), gradient
  * shading (the phase function holds), silver lining and powder (no physics). A vtkBrumeFog scatters
  * as often as the volumes do, and they throw shadows on it; one without falloff is an error with light
