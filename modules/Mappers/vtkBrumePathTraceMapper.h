@@ -59,6 +59,32 @@ public:
 
   ///@{
   /**
+   * For windows: paths through each pixel that one render adds to those of the renders before it, up
+   * to SamplesPerPixel. While nothing changes, neither the camera nor the scene nor the picture's
+   * size, each Render() of the window brings a picture with less noise, after n renders bit for bit
+   * the one of n times as many samples; the first one after a change begins anew. Tolerance and
+   * TimeBudget end a render, too, and later ones go on. Default 0: off, each render makes the
+   * whole picture by itself. Range 0 to VTK_INT_MAX; values outside are clamped.
+   *
+   * @code
+   * mapper->SetSamplesPerRender(4);
+   * do
+   * {
+   *   window->Render();
+   * } while (mapper->GetRenderedSamplesPerPixel() < mapper->GetSamplesPerPixel());
+   * @endcode
+   */
+  vtkSetClampMacro(SamplesPerRender, int, 0, VTK_INT_MAX);
+  vtkGetMacro(SamplesPerRender, int);
+  ///@}
+
+  /**
+   * Paths through each pixel of the last picture; 0 before one.
+   */
+  vtkGetMacro(RenderedSamplesPerPixel, int);
+
+  ///@{
+  /**
    * Scatterings of a path, at the most. Default 0: any number. 1 gives single scattering, what
    * vtkBrumeRayMarchMapper draws without octaves.
    */
@@ -91,6 +117,8 @@ protected:
   void AppendIgnoredSettings(vtkVolume* volume, std::vector<std::string>& names) override;
 
   int SamplesPerPixel = 64;
+  int SamplesPerRender = 0;
+  int RenderedSamplesPerPixel = 0;
   int MaximumScatterings = 0;
   double TimeBudget = 0.0;
   unsigned int Seed = 1;
