@@ -146,15 +146,25 @@ void add_places(Json& context, const Study& study, const std::vector<const Study
   context["has_places"] = !chosen.empty();
 }
 
+/// A gain at which half of the differences fill the scale; the larger errors reach beyond it.
+double gain_for(const std::vector<const StudyPoint*>& chosen)
+{
+  std::vector<double> gains;
+  for (const StudyPoint* point : chosen)
+  {
+    if (std::isfinite(point->errors.measured.percentile_999) && point->errors.measured.largest > 0.0)
+    {
+      gains.push_back(automatic_gain(point->errors.measured));
+    }
+  }
+  std::sort(gains.begin(), gains.end());
+  return gains.empty() ? 1.0 : gains[gains.size() / 2];
+}
+
 void add_pictures(Json& context, const Study& study)
 {
   const std::vector<const StudyPoint*> chosen = chosen_points(study);
-  std::vector<ImageErrors> errors;
-  for (const StudyPoint* point : chosen)
-  {
-    errors.push_back(point->errors.measured);
-  }
-  const double gain = shared_gain(errors);
+  const double gain = gain_for(chosen);
   const Picture& truth = study.truth.truth.picture;
   context["pictures"] = Json::array();
   context["differences"] = Json::array();

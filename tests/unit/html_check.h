@@ -78,7 +78,7 @@ inline std::string fault_of(std::string page)
   const std::regex reference("^&(amp|lt|gt|quot|#39);");
   for (std::size_t at = 0; (at = page.find('&', at)) != std::string::npos; ++at)
   {
-    const bool in_code = contains(page.substr(at, 2), "&&");
+    const bool in_code = page.compare(at, 2, "&&") == 0;
     if (!in_code && !std::regex_search(page.substr(at, 8), reference))
     {
       return "bare ampersand: " + page.substr(at, 40);
