@@ -314,11 +314,11 @@ TEST(StudyReport, is_well_formed_and_needs_nothing_else)
   EXPECT_EQ(html::fault_of(page), "");
   EXPECT_FALSE(contains(page, "http"));
   EXPECT_FALSE(contains(page, "{{"));
-  for (const char* part : { "What accuracy costs in time", "sample:cloud", "4 voxels", "CPU 1 voxel",
+  for (const char* part : { "what accuracy costs in time", "sample:cloud", "4 voxels", "CPU 1 voxel",
          "The last halving of the error cost", "10\u00A0times less error", "too dark by 50\u00A0%", "without fog",
          "brume cost sample:cloud --output cost" })
   {
-    EXPECT_TRUE(contains(page, part) || contains(html::without_pictures(page), part)) << part;
+    EXPECT_TRUE(contains(page, part)) << part;
   }
   EXPECT_FALSE(contains(brume::to_html(study, nullptr), "Each mark is a setting"));
 }
