@@ -131,11 +131,12 @@ void MarchChoices::ChooseStep(Marcher& marcher, const Scene& whole, const Choice
   const std::vector<double> key{ tolerance,
     static_cast<double>(wanted.choose_shadows),
     static_cast<double>(wanted.shadows),
-    wanted.shadow_step };
+    wanted.shadow_step,
+    wanted.beyond };
   if (!this->StepMade.Holds(whole, key, this->Effects))
   {
-    this->Step = choose_step(
-      marcher, *this->TheScene, tolerance, wanted.threads, lit ? this->Settings : MarchSettings());
+    this->Step = choose_step(marcher, *this->TheScene, tolerance, wanted.threads,
+      lit ? this->Settings : MarchSettings(), wanted.beyond);
     this->StepMade.Take(whole, key, this->Effects);
   }
   this->Settings.rule = this->Step.rule;

@@ -30,10 +30,17 @@ namespace
 using Clock = std::chrono::steady_clock;
 
 /// From so many paths a pixel on, standard errors are estimated.
-constexpr int fewest_samples = 16;
+constexpr int fewest_samples = PathSettings::fewest_samples;
 
 /// Paths a pixel of one pass, at the most: a pass is what is waited for when time is short.
 constexpr int most_of_pass = 64;
+
+/// How many times the paths of a pixel one pass may multiply, where pixels have their own number: what
+/// they are by is an estimate that the pass betters.
+constexpr double most_growth = 3.0;
+
+/// Paths between two looks at the clock, and between two calls of the progress.
+constexpr int paths_of_look = 64;
 
 double seconds_since(Clock::time_point start)
 {
@@ -43,10 +50,12 @@ double seconds_since(Clock::time_point start)
 void check(const Scene& scene, const PathSettings& settings, const Film& film)
 {
   if (settings.samples_per_pixel < 1 || !(settings.tolerance >= 0.0) ||
-      !(settings.seconds >= 0.0) || settings.most_scatterings < 0 || !(settings.step >= 0.0))
+      !(settings.seconds >= 0.0) || settings.most_scatterings < 0 || !(settings.step >= 0.0) ||
+      !(settings.beyond > 0.0 && settings.beyond < 1.0))
   {
-    throw std::invalid_argument("path tracing needs at least one sample a pixel, and a tolerance, "
-                                "a time, scatterings and a step that are not negative");
+    throw std::invalid_argument("path tracing needs at least one sample a pixel, a tolerance, "
+                                "a time, scatterings and a step that are not negative, and a share of "
+                                "pixels between 0 and 1");
   }
   if (film.width < 1 || film.height < 1)
   {
@@ -100,15 +109,46 @@ struct PathTracer::Kept
   }
   int fewest() const { return *std::min_element(this->Samples.begin(), this->Samples.end()); }
 
-  /// The variance of the mean of a pixel's paths.
-  double variance(std::size_t pixel, int channel) const
+  double mean_samples() const
+  {
+    double sum = 0.0;
+    for (const int n : this->Samples)
+    {
+      sum += n;
+    }
+    return sum / static_cast<double>(this->Samples.size());
+  }
+
+  /// The variance of a pixel's paths.
+  double variance_of_path(std::size_t pixel, int channel) const
   {
     const int n = this->Samples[pixel];
     const double sum = this->Sums[3 * pixel + channel];
-    const double mean = sum / n;
-    return n < 2 ? 0.0
-                 : std::max(this->Squares[3 * pixel + channel] - sum * mean, 0.0) /
-                     (static_cast<double>(n) * (n - 1));
+    return n < 2 ? 0.0 : std::max(this->Squares[3 * pixel + channel] - sum * (sum / n), 0.0) / (n - 1);
+  }
+  /// The variance of their mean.
+  double variance(std::size_t pixel, int channel) const
+  {
+    return this->variance_of_path(pixel, channel) / std::max(this->Samples[pixel], 1);
+  }
+  /// The largest of a pixel's channels, of its paths; no less than the mean of the pixels around it, as
+  /// samples that are all alike tell little.
+  void careful_variance(int x, int y, double v[3]) const
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      double around = 0.0;
+      int count = 0;
+      for (int j = std::max(y - 1, 0); j <= std::min(y + 1, this->Height - 1); ++j)
+      {
+        for (int i = std::max(x - 1, 0); i <= std::min(x + 1, this->Width - 1); ++i, ++count)
+        {
+          around += this->variance_of_path(static_cast<std::size_t>(j) * this->Width + i, c);
+        }
+      }
+      const double own = this->variance_of_path(static_cast<std::size_t>(y) * this->Width + x, c);
+      v[c] = std::isnan(own) ? own : std::max(own, around / count);
+    }
   }
   PathError error() const
   {
@@ -117,25 +157,38 @@ struct PathTracer::Kept
     {
       for (int x = 0; x < this->Width; ++x)
       {
+        const int n = this->Samples[static_cast<std::size_t>(y) * this->Width + x];
         double v[3];
-        for (int c = 0; c < 3; ++c)
+        this->careful_variance(x, y, v);
+        for (double& channel : v)
         {
-          double around = 0.0;
-          int count = 0;
-          for (int j = std::max(y - 1, 0); j <= std::min(y + 1, this->Height - 1); ++j)
-          {
-            for (int i = std::max(x - 1, 0); i <= std::min(x + 1, this->Width - 1); ++i, ++count)
-            {
-              around += this->variance(static_cast<std::size_t>(j) * this->Width + i, c);
-            }
-          }
-          const double own = this->variance(static_cast<std::size_t>(y) * this->Width + x, c);
-          v[c] = std::isnan(own) ? own : std::max(own, around / count);
+          channel /= std::max(n, 1);
         }
-        error.add(v);
+        error.add(v, n);
       }
     }
     return error;
+  }
+  /// Paths that bring each pixel's standard error down to `cap`, from one pass to the next.
+  void find_targets(double cap, int most, std::vector<int>& targets) const
+  {
+    targets.resize(this->Samples.size());
+    for (int y = 0; y < this->Height; ++y)
+    {
+      for (int x = 0; x < this->Width; ++x)
+      {
+        const std::size_t pixel = static_cast<std::size_t>(y) * this->Width + x;
+        double v[3];
+        this->careful_variance(x, y, v);
+        const double n = this->Samples[pixel];
+        const double largest = std::max({ v[0], v[1], v[2] });
+        const double highest = std::max<double>(n, std::min<double>(most, most_growth * n));
+        const double wanted = largest == 0.0                               ? n
+                              : cap > 0.0 && std::isfinite(largest) ? largest / (cap * cap)
+                                                                           : highest;
+        targets[pixel] = static_cast<int>(std::ceil(std::clamp(wanted, n, highest)));
+      }
+    }
   }
   void show(Film& film) const
   {
@@ -202,6 +255,9 @@ PathStatistics PathTracer::render(const Scene& scene,
   statistics.seconds_prepare = seconds_since(begin);
 
   const auto start = Clock::now();
+  // Of the paths alone.
+  const double seconds = std::max(
+    settings.seconds - (settings.seconds_of_all ? statistics.seconds_prepare : 0.0), 0.0);
   const ReferenceRays rays(scene, film.width, film.height);
   const std::thread::id caller = std::this_thread::get_id();
   std::atomic<bool> aborted{ false };
@@ -209,15 +265,12 @@ PathStatistics PathTracer::render(const Scene& scene,
   std::atomic<std::uint64_t> scatterings{ 0 };
   std::atomic<std::uint64_t> shadow_rays{ 0 };
   std::atomic<std::uint64_t> traced{ 0 };
-  const int already = kept.fewest();
+  std::atomic<bool> late{ false };
 
-  /// Brings every pixel to `target` paths.
-  const auto pass = [&](int target)
+  /// Brings every pixel to its target; `from` and `part` are of the progress.
+  const auto pass = [&](const auto& target, double from, double part, bool may_be_late)
   {
     std::atomic<int> rows{ 0 };
-    const double all = std::max(settings.samples_per_pixel - already, 1);
-    const double before = (kept.fewest() - already) / all;
-    const double part = (target - kept.fewest()) / all;
     tbb::task_arena arena(statistics.threads);
     arena.execute(
       [&]
@@ -226,25 +279,29 @@ PathStatistics PathTracer::render(const Scene& scene,
           tbb::blocked_range<int>(0, film.height, 1),
           [&](const tbb::blocked_range<int>& range)
           {
+            int unlooked = 0; // paths since the last look
             for (int y = range.begin(); y != range.end(); ++y)
             {
               PathCounts counts;
-              for (int x = 0; x < film.width && !aborted; ++x)
+              std::uint64_t followed = 0;
+              for (int x = 0; x < film.width && !aborted && !late; ++x)
               {
                 const std::size_t pixel = static_cast<std::size_t>(y) * film.width + x;
-                const int first = kept.Samples[pixel];
-                kept.Samples[pixel] = std::max(target, first);
+                int& samples = kept.Samples[pixel];
+                const int last = target(pixel);
                 const PixelRay ray = rays.ray(x, y);
-                if (ray.empty() || !(ray.world_length > 0.0))
+                const bool empty = ray.empty() || !(ray.world_length > 0.0);
+                if (empty)
                 {
-                  continue;
+                  samples = std::max(samples, last);
                 }
-                const glm::dvec3 along = ray.world_along / ray.world_length;
+                const glm::dvec3 along =
+                  empty ? glm::dvec3(0.0) : ray.world_along / ray.world_length;
                 double* sums = &kept.Sums[3 * pixel];
                 double* squares = &kept.Squares[3 * pixel];
-                for (int n = first; n < target; ++n)
+                for (; samples < last && !aborted && !late; ++samples, ++followed)
                 {
-                  RandomStream random(settings.seed, pixel, static_cast<std::uint32_t>(n));
+                  RandomStream random(settings.seed, pixel, static_cast<std::uint32_t>(samples));
                   const glm::dvec3 radiance = paths.radiance(ray.world_begin, along,
                     ray.world_length, settings.most_scatterings, random, counts);
                   for (int c = 0; c < 3; ++c)
@@ -252,46 +309,110 @@ PathStatistics PathTracer::render(const Scene& scene,
                     sums[c] += radiance[c];
                     squares[c] += radiance[c] * radiance[c];
                   }
-                }
-                traced += static_cast<std::uint64_t>(std::max(target - first, 0));
-                if (progress && x % 16 == 15 && std::this_thread::get_id() == caller &&
-                    !progress(before + part * rows / film.height))
-                {
-                  aborted = true;
+                  if (++unlooked < paths_of_look)
+                  {
+                    continue;
+                  }
+                  unlooked = 0;
+                  if (may_be_late && seconds_since(start) > seconds)
+                  {
+                    late = true;
+                  }
+                  if (progress && std::this_thread::get_id() == caller &&
+                      !progress(std::min(from + part * rows / film.height, 1.0)))
+                  {
+                    aborted = true;
+                  }
                 }
               }
+              traced += followed;
               collisions += counts.collisions;
               scatterings += counts.scatterings;
               shadow_rays += counts.shadow_rays;
               ++rows;
+              if (progress && std::this_thread::get_id() == caller &&
+                  !progress(std::min(from + part * rows / film.height, 1.0)))
+              {
+                aborted = true;
+              }
             }
           },
           tbb::simple_partitioner());
       });
   };
 
+  const int already = kept.fewest();
+  std::vector<int> targets;
   int target = already;
-  while (paths.can_send() && target < settings.samples_per_pixel && !aborted)
+  while (paths.can_send() && target < settings.samples_per_pixel && !aborted && !late)
   {
-    if (settings.tolerance > 0.0 && target >= fewest_samples &&
-        kept.error().quantile() <= settings.tolerance)
+    const bool timed = settings.seconds > 0.0;
+    const bool estimated = kept.fewest() >= fewest_samples;
+    PathError error;
+    if (estimated && (settings.tolerance > 0.0 || settings.adaptive))
     {
-      break;
-    }
-    // Passes double at first, so that what is asked between them costs little.
-    const int done = target - already;
-    double more = std::clamp(done, 1, most_of_pass);
-    if (settings.seconds > 0.0 && done > 0)
-    {
-      const double passed = seconds_since(start);
-      more = std::min(more, std::floor(done * (settings.seconds - passed) / std::max(passed, 1e-9)));
-      if (more < 1.0)
+      error = kept.error();
+      if (settings.tolerance > 0.0 && error.quantile(settings.beyond) <= settings.tolerance)
       {
         break;
       }
     }
-    target += static_cast<int>(std::min<double>(more, settings.samples_per_pixel - target));
-    pass(target);
+    const double done = static_cast<double>(traced);
+    const double passed = seconds_since(start);
+    // Paths that there is time for, of those that are to be traced.
+    const double affordable =
+      timed && done > 0.0 ? done * std::max(seconds - passed, 0.0) / std::max(passed, 1e-9) : 1e300;
+    if (estimated && settings.adaptive)
+    {
+      // A little lower, so that the last pass is the last.
+      double cap = settings.tolerance > 0.0
+                     ? 0.99 * error.cap(settings.tolerance, settings.beyond)
+                     : 0.0;
+      double more = cap > 0.0 ? error.paths_to(cap) : 1e300;
+      if (more > affordable)
+      {
+        more = affordable;
+        cap = error.cap_of(more);
+      }
+      kept.find_targets(cap, settings.samples_per_pixel, targets);
+      double in_pass = 0.0;
+      for (std::size_t pixel = 0; pixel < targets.size(); ++pixel)
+      {
+        in_pass += targets[pixel] - kept.Samples[pixel];
+      }
+      if (in_pass < 1.0 || (timed && affordable < 0.01 * done))
+      {
+        break;
+      }
+      more = std::max(more, in_pass);
+      pass([&](std::size_t pixel) { return targets[pixel]; }, done / (done + more),
+        in_pass / (done + more), timed);
+      continue;
+    }
+    // Passes double at first, so that what is asked between them costs little.
+    const int so_far = target - already;
+    double more = std::clamp(so_far, 1, most_of_pass);
+    if (settings.adaptive)
+    {
+      more = std::min<double>(more, std::max(fewest_samples - target, 1));
+    }
+    if (so_far > 0)
+    {
+      more = std::min(more, std::floor(affordable / std::max(done, 1.0) * so_far));
+      if (more < 1.0)
+      {
+        // What is left of the time is for a part of a pass, where pixels need not be alike.
+        if (!settings.adaptive || affordable < 0.02 * done)
+        {
+          break;
+        }
+        more = 1.0;
+      }
+    }
+    const double all = std::max(settings.samples_per_pixel - already, 1);
+    more = std::min<double>(more, settings.samples_per_pixel - target);
+    target += static_cast<int>(more);
+    pass([&](std::size_t) { return target; }, so_far / all, more / all, timed && so_far > 0);
   }
   if (!paths.can_send())
   {
@@ -299,6 +420,7 @@ PathStatistics PathTracer::render(const Scene& scene,
   }
   kept.show(film);
   statistics.samples_per_pixel = kept.fewest();
+  statistics.mean_samples = kept.mean_samples();
   if (statistics.samples_per_pixel >= fewest_samples || !paths.can_send())
   {
     const PathError error = kept.error();
