@@ -325,10 +325,6 @@ std::string PathOptions::given() const
 void refuse_beyond_paths(const SceneOptions& options)
 {
   const char* const remedy = "leave it out, or take --mapper raymarch";
-  if (options.medium.has_fog())
-  {
-    throw Failure("--fog-extinction", "paths are not traced through fog yet", remedy, BadCall);
-  }
   if (options.sample_distance)
   {
     throw Failure("--sample-distance", "paths take no steps", remedy, BadCall);

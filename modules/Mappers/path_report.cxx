@@ -2,6 +2,8 @@
 
 #include "march_report.h"
 
+#include "Transport/fog.h"
+
 #include <glm/vec3.hpp>
 
 #include <nlohmann/json.hpp>
@@ -10,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace brume
 {
@@ -28,7 +31,8 @@ EffectPlan plan_of_paths(const Scene& scene, int most_scatterings)
 {
   const auto any = [&scene](auto condition)
   { return std::any_of(scene.volumes.begin(), scene.volumes.end(), condition); };
-  const bool lit = any([](const Volume& v) { return v.medium.lit; });
+  const bool fog = has_fog(scene);
+  const bool lit = any([](const Volume& v) { return v.medium.lit; }) || (fog && shines(scene.fog.albedo));
   const bool lamps = !scene.lights.empty();
   const bool sky = shines(scene.sky.radiance) || shines(scene.sky.ground);
   const bool emits = any(
@@ -39,13 +43,16 @@ EffectPlan plan_of_paths(const Scene& scene, int most_scatterings)
                    : v.meaning == ValueMeaning::Classified;
     });
   const bool coloured = any([](const Volume& v)
-    { return v.meaning == ValueMeaning::Density && v.density.channels != glm::dvec3(1.0); });
-  const bool anisotropic = any([](const Volume& v)
-    {
-      return v.medium.lit && std::any_of(v.medium.lobes.begin(), v.medium.lobes.end(),
-                               [](const PhaseLobe& lobe)
-                               { return lobe.function != PhaseFunction::Isotropic; });
-    });
+    { return v.meaning == ValueMeaning::Density && v.density.channels != glm::dvec3(1.0); }) ||
+    (fog && scene.fog.extinction != glm::dvec3(scene.fog.extinction.x));
+  const auto turns = [](const std::vector<PhaseLobe>& lobes)
+  {
+    return std::any_of(lobes.begin(), lobes.end(),
+      [](const PhaseLobe& lobe) { return lobe.function != PhaseFunction::Isotropic; });
+  };
+  const bool anisotropic =
+    any([&](const Volume& v) { return v.medium.lit && turns(v.medium.lobes); }) ||
+    (fog && turns(scene.fog.lobes));
   const std::string scatterings =
     most_scatterings > 0 ? "up to " + std::to_string(most_scatterings) + " scatterings are followed"
                          : "all scatterings are followed";
@@ -76,7 +83,8 @@ EffectPlan plan_of_paths(const Scene& scene, int most_scatterings)
     lining ? "not physical: paths leave it out" : "silver lining is off");
   const bool powder = any([](const Volume& v) { return v.medium.lit && v.medium.powder.enabled; });
   settle(Effect::Powder, false, powder ? "not physical: paths leave it out" : "powder is off");
-  settle(Effect::Fog, false, "the scene has no fog"); // with fog nothing is traced
+  settle(Effect::Fog, fog,
+    fog ? "paths collide with it, in closed form, and it is shadowed" : "the scene has no fog");
   const bool surfaces = !scene.surface_depth.empty();
   settle(Effect::Surfaces, surfaces,
     surfaces ? "rays of the camera end at opaque surfaces" : "there are no surfaces");

@@ -24,8 +24,10 @@
  * bit, for every number of threads.
  *
  * What is not simulated, and told in the statistics: octaves (all scatterings are followed), gradient
- * shading (the phase function holds), silver lining and powder (no physics), vtkBrumeFog (an error).
- * Composite mode alone. Input, cropping, masks, clipping, several volumes and surfaces are those of
+ * shading (the phase function holds), silver lining and powder (no physics). A vtkBrumeFog scatters
+ * as often as the volumes do, and they throw shadows on it; one without falloff is an error with light
+ * from infinity (directional lights, sky), of which it has no end, unless MaximumScatterings is 1, and
+ * with an albedo of 1, unless there is a MaximumScatterings. Composite mode alone. Input, cropping, masks, clipping, several volumes and surfaces are those of
  * vtkBrumeVolumeMapper.
  */
 #ifndef vtkBrumePathTraceMapper_h

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <stdexcept>
 
 namespace brume
 {
@@ -115,10 +116,6 @@ std::string why_no_paths(const Scene& scene)
   if (scene.volumes.empty())
   {
     return "there is no volume";
-  }
-  if (scene.fog.enabled)
-  {
-    return "paths are not traced through fog without bounds";
   }
   if (any([](const Volume& v) { return v.shading.enabled; }))
   {
@@ -546,7 +543,15 @@ MethodChoice choose_method(Marcher& marcher,
     choice.reason = "not compared with paths because no number of them meets a tolerance of 0";
     return choice;
   }
-  return Chooser(marcher, scene, wish, progress).choose();
+  try
+  {
+    return Chooser(marcher, scene, wish, progress).choose();
+  }
+  catch (const std::invalid_argument& error)
+  {
+    choice.reason = std::string("not compared with paths because of this: ") + error.what();
+    return choice;
+  }
 }
 
 }

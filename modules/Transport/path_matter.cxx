@@ -1,6 +1,7 @@
 #include "Transport/path_matter.h"
 
 #include "Transport/black_body.h"
+#include "Transport/sparse_voxels.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -11,6 +12,7 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
 
 namespace brume
 {
@@ -22,17 +24,61 @@ namespace
 /// seen at collisions.
 constexpr double collisions_of_glow = 16.0;
 
-/// A density of voxels that are all at hand: one of the eight around a place stands for them.
+/// Voxels of a dense grid.
 template <class T>
+class DenseReader
+{
+public:
+  explicit DenseReader(const Grid& grid)
+    : Voxels(static_cast<const T*>(grid.voxels) + grid.component)
+    , Components(grid.components)
+    , X(grid.dims[0])
+    , Y(grid.dims[1])
+  {
+  }
+  double operator()(int x, int y, int z) const
+  {
+    return static_cast<double>(
+      this->Voxels[((static_cast<std::size_t>(z) * this->Y + y) * this->X + x) * this->Components]);
+  }
+
+private:
+  const T* Voxels;
+  std::size_t Components;
+  std::size_t X;
+  std::size_t Y;
+};
+
+/// Voxels of a sparse grid.
+class SparseReader
+{
+public:
+  explicit SparseReader(const Grid& grid)
+    : Voxels(grid.sparse)
+  {
+  }
+  double operator()(int x, int y, int z) const { return this->Voxels->value(x, y, z); }
+
+private:
+  const SparseVoxels* Voxels;
+};
+
+/// A density of voxels: one of the eight around a place stands for them.
+template <class Reader>
 class VoxelMatter final : public PathMatter
 {
 public:
   VoxelMatter(const Scene& scene, const std::vector<ReferenceMedium>& media, int number)
     : PathMatter(scene, media, { number })
-    , TheGrid(scene.volumes[number].grid)
-    , Voxels(static_cast<const T*>(this->TheGrid.voxels) + this->TheGrid.component)
+    , Read(scene.volumes[number].grid)
     , Scale(scene.volumes[number].density.extinction * scene.volumes[number].weight)
   {
+    const Grid& grid = scene.volumes[number].grid;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->First[axis] = grid.first[axis];
+      this->Last[axis] = grid.dims[axis] - 1;
+    }
   }
 
   double density(const glm::dvec3& place, RandomStream& random) const override
@@ -42,60 +88,81 @@ public:
       return 0.0;
     }
     double u = random.uniform();
-    std::size_t index = 0;
+    int voxel[3];
     for (int axis = 2; axis >= 0; --axis)
     {
-      const int count = this->TheGrid.dims[axis];
-      const double at = std::clamp(place[axis], 0.0, double(count - 1));
-      int voxel = static_cast<int>(at);
-      const double fraction = at - voxel;
+      const double at = std::clamp<double>(place[axis], this->First[axis], this->Last[axis]);
+      voxel[axis] = static_cast<int>(at);
+      const double fraction = at - voxel[axis];
       if (u < fraction)
       {
-        ++voxel;
+        ++voxel[axis];
         u /= fraction;
       }
       else
       {
         u = (u - fraction) / (1.0 - fraction);
       }
-      index = index * count + voxel;
     }
-    const double value = static_cast<double>(this->Voxels[index * this->TheGrid.components]);
+    const double value = this->Read(voxel[0], voxel[1], voxel[2]);
     return std::isfinite(value) ? this->Scale * value : 0.0;
   }
 
+  bool has_voxels() const override { return true; }
+  void read_voxels(const std::int32_t* x,
+    const std::int32_t* y,
+    const std::int32_t* z,
+    const std::uint8_t* bits,
+    int count,
+    float* values) const override
+  {
+    for (int i = 0; i < count; ++i)
+    {
+      if (bits[i / 8] >> (i % 8) & 1)
+      {
+        values[i] = static_cast<float>(this->Read(x[i], y[i], z[i]));
+      }
+    }
+  }
+
 private:
-  const Grid TheGrid;
-  const T* Voxels;
+  Reader Read;
   double Scale;
+  int First[3];
+  int Last[3];
 };
 
 /// Whether a volume can be a VoxelMatter: a trilinear density that is nowhere negative, where
 /// interpolating and taking what is below 0 for 0 are one.
 bool has_plain_voxels(const Volume& volume, const ReferenceMedium& medium)
 {
-  return volume.meaning == ValueMeaning::Density && volume.grid.voxels && volume.grid.linear &&
-         !volume.mask.labels && medium.ranges().lower >= 0.0f;
+  return volume.meaning == ValueMeaning::Density && volume.grid.linear && !volume.mask.labels &&
+         medium.ranges().lower >= 0.0f;
 }
 
-std::unique_ptr<PathMatter> make_matter(
-  const Scene& scene, const std::vector<ReferenceMedium>& media, int number)
+std::unique_ptr<PathMatter> make_matter(const Scene& scene,
+  const std::vector<ReferenceMedium>& media,
+  int number)
 {
   const Volume& volume = scene.volumes[number];
   if (has_plain_voxels(volume, media[number]))
   {
+    if (volume.grid.sparse)
+    {
+      return std::make_unique<VoxelMatter<SparseReader>>(scene, media, number);
+    }
     switch (volume.grid.type)
     {
       case VoxelType::UInt8:
-        return std::make_unique<VoxelMatter<std::uint8_t>>(scene, media, number);
+        return std::make_unique<VoxelMatter<DenseReader<std::uint8_t>>>(scene, media, number);
       case VoxelType::Int8:
-        return std::make_unique<VoxelMatter<std::int8_t>>(scene, media, number);
+        return std::make_unique<VoxelMatter<DenseReader<std::int8_t>>>(scene, media, number);
       case VoxelType::UInt16:
-        return std::make_unique<VoxelMatter<std::uint16_t>>(scene, media, number);
+        return std::make_unique<VoxelMatter<DenseReader<std::uint16_t>>>(scene, media, number);
       case VoxelType::Int16:
-        return std::make_unique<VoxelMatter<std::int16_t>>(scene, media, number);
+        return std::make_unique<VoxelMatter<DenseReader<std::int16_t>>>(scene, media, number);
       case VoxelType::Float32:
-        return std::make_unique<VoxelMatter<float>>(scene, media, number);
+        return std::make_unique<VoxelMatter<DenseReader<float>>>(scene, media, number);
       case VoxelType::Float16: // dense grids have none
         break;
     }
@@ -121,7 +188,8 @@ PathMatter::PathMatter(const Scene& scene,
       black_body_radiance(0.0, medium.black_body_reference); // throws for one that is not usable
       this->Temperatures.back() = ReferenceGrid::make(medium.temperature, 0.0);
     }
-    const bool glows = this->Temperatures.back() || glm::any(glm::greaterThan(medium.emission, glm::dvec3(0.0)));
+    const bool glows =
+      this->Temperatures.back() || glm::any(glm::greaterThan(medium.emission, glm::dvec3(0.0)));
     const bool scatters = glm::any(glm::greaterThan(medium.albedo, glm::dvec3(0.0)));
     this->Emits |= medium.lit ? glows : volume.meaning == ValueMeaning::Classified;
     this->Scatters |= medium.lit && scatters;
@@ -159,8 +227,7 @@ void PathMatter::find_bricks()
   }
   const double across = glm::length(this->DataFromIndex * box);
   const double glow = this->Emits && this->volume().medium.lit ? collisions_of_glow / across : 0.0;
-  const double channel =
-    std::max({ this->Channels.x, this->Channels.y, this->Channels.z });
+  const double channel = std::max({ this->Channels.x, this->Channels.y, this->Channels.z });
   for (const ReferenceMedium* medium : this->Media)
   {
     const BrickRanges& own = medium->ranges();
@@ -193,16 +260,18 @@ void PathMatter::find_bricks()
   }
   // Distances are a matter of what can be seen; the rates say what.
   BrickRanges seen = ranges;
-  std::transform(bricks.rate.begin(), bricks.rate.end(), seen.maximum.begin(),
+  std::transform(bricks.rate.begin(),
+    bricks.rate.end(),
+    seen.maximum.begin(),
     [](double rate) { return rate > 0.0 ? 1.0f : 0.0f; });
   std::fill(seen.minimum.begin(), seen.minimum.end(), 0.0f);
   seen.reaches_non_finite.clear();
-  bricks.distance =
-    find_visible_bricks(seen, [](float, float upper) { return upper > 0.0f; }, 0.0f).distance;
+  bricks.distance = find_visible_bricks(
+    seen, [](float, float upper) { return upper > 0.0f; }, 0.0f)
+                      .distance;
 }
 
-MatterRay PathMatter::ray(
-  const glm::dvec3& world_begin, const glm::dvec3& world_direction) const
+MatterRay PathMatter::ray(const glm::dvec3& world_begin, const glm::dvec3& world_direction) const
 {
   MatterRay ray;
   ray.begin = glm::dvec3(this->IndexFromWorld * glm::dvec4(world_begin, 1.0));
@@ -257,6 +326,16 @@ double PathMatter::density(const glm::dvec3& place, RandomStream&) const
   return this->Media.size() > 1 && sum > 0.0 ? squares / sum : sum;
 }
 
+void PathMatter::read_voxels(const std::int32_t*,
+  const std::int32_t*,
+  const std::int32_t*,
+  const std::uint8_t*,
+  int,
+  float*) const
+{
+  throw std::logic_error("this matter is not read voxel by voxel");
+}
+
 glm::dvec3 PathMatter::albedo(const glm::dvec3& place) const
 {
   const Medium& first = this->volume().medium;
@@ -297,16 +376,16 @@ glm::dvec3 PathMatter::emission(const glm::dvec3& place) const
     const FoundMatter found = own.matter(place);
     if (!medium.lit)
     {
-      sum += own.volume().weight * found.extinction * (own.is_density() ? glm::dvec3(0.0) : found.colour);
+      sum += own.volume().weight * found.extinction *
+             (own.is_density() ? glm::dvec3(0.0) : found.colour);
       continue;
     }
     glm::dvec3 radiance = medium.emission;
     if (this->Temperatures[i])
     {
       radiance += medium.black_body *
-                  black_body_radiance(
-                    medium.temperature_scale *
-                      this->Temperatures[i]->value(place, medium.temperature.component),
+                  black_body_radiance(medium.temperature_scale * this->Temperatures[i]->value(place,
+                                                                   medium.temperature.component),
                     medium.black_body_reference);
     }
     sum += own.volume().weight * (own.is_density() ? radiance * std::max(found.value, 0.0)
@@ -318,13 +397,14 @@ glm::dvec3 PathMatter::emission(const glm::dvec3& place) const
 namespace
 {
 
-/// Whether the volumes are components of one grid that send colours as VTK's mappers mix them. Lit ones
-/// would send more than they take, again at each scattering: their extinctions add up instead.
+/// Whether the volumes are components of one grid that send colours as VTK's mappers mix them. Lit
+/// ones would send more than they take, again at each scattering: their extinctions add up instead.
 bool mixes_as_components(const Scene& scene)
 {
   const Volume& first = scene.volumes.front();
   return scene.mixture == Mixture::Components && scene.volumes.size() > 1 &&
-         std::all_of(scene.volumes.begin(), scene.volumes.end(),
+         std::all_of(scene.volumes.begin(),
+           scene.volumes.end(),
            [&first](const Volume& v)
            {
              return v.grid.voxels == first.grid.voxels && v.grid.sparse == first.grid.sparse &&
@@ -335,8 +415,8 @@ bool mixes_as_components(const Scene& scene)
 
 }
 
-std::vector<std::unique_ptr<PathMatter>> find_path_matter(
-  const Scene& scene, const std::vector<ReferenceMedium>& media)
+std::vector<std::unique_ptr<PathMatter>> find_path_matter(const Scene& scene,
+  const std::vector<ReferenceMedium>& media)
 {
   std::vector<std::unique_ptr<PathMatter>> result;
   if (mixes_as_components(scene))

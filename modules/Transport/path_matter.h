@@ -11,6 +11,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -45,23 +46,37 @@ public:
   /// bricks(). Its expectation over `random` is the interpolated one: a matter may draw one of the
   /// voxels around with the weight that interpolation gives it.
   virtual double density(const glm::dvec3& place, RandomStream& random) const;
+  /// Whether density() is the extinction of one voxel: read_voxels() gives them by themselves.
+  virtual bool has_voxels() const { return false; }
+  /// The values of voxels at whole places, one after another, where their bit is set; only where
+  /// has_voxels().
+  virtual void read_voxels(const std::int32_t* x,
+    const std::int32_t* y,
+    const std::int32_t* z,
+    const std::uint8_t* bits,
+    int count,
+    float* values) const;
   /// σs / σt at a place.
   virtual glm::dvec3 albedo(const glm::dvec3& place) const;
   /// Radiance sent per unit of the data's length.
   virtual glm::dvec3 emission(const glm::dvec3& place) const;
 
+  const Volume& volume() const { return this->Media.front()->volume(); }
   const PathBricks& bricks() const { return this->Bricks; }
   const glm::dvec3& channels() const { return this->Channels; }
   bool emits() const { return this->Emits; }
   bool scatters() const { return this->Scatters; }
   const PhaseSampler& phase() const { return this->Phase; }
 
+  const glm::dmat4& index_from_world() const { return this->IndexFromWorld; }
+  const glm::dmat3& data_from_index() const { return this->DataFromIndex; }
+  /// Whether cropping or clipping planes leave some of it out.
+  bool is_cut() const { return this->Cut; }
+
 protected:
-  const Volume& volume() const { return this->Media.front()->volume(); }
   const ReferenceMedium& medium() const { return *this->Media.front(); }
   /// Whether cropping and clipping planes leave a place.
   bool is_drawn(const glm::dvec3& place) const;
-  bool is_cut() const { return this->Cut; }
 
 private:
   void find_bricks();
@@ -80,9 +95,9 @@ private:
   glm::dmat3 DataFromIndex{ 1.0 };
 };
 
-/// The matter of a scene's volumes: one for each, or one for all components of an unlit grid that are
-/// mixed as Mixture::Components.
-std::vector<std::unique_ptr<PathMatter>> find_path_matter(
-  const Scene& scene, const std::vector<ReferenceMedium>& media);
+/// The matter of a scene's volumes: one for each, or one for all components of an unlit grid that
+/// are mixed as Mixture::Components.
+std::vector<std::unique_ptr<PathMatter>> find_path_matter(const Scene& scene,
+  const std::vector<ReferenceMedium>& media);
 
 }

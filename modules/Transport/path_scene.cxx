@@ -1,5 +1,8 @@
 #include "Transport/path_scene.h"
 
+#include "Transport/path_state.h"
+#include "Transport/sparse_voxels.h"
+
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
@@ -9,6 +12,7 @@
 #include <cstddef>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace brume
 {
@@ -16,23 +20,10 @@ namespace brume
 namespace
 {
 
+using path_state::largest;
+using path_state::most_candidates;
+
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// Below this weight a path goes on with a chance that is as small, and more weight if it does.
-constexpr double least_weight = 0.25;
-
-/// Lamps that are looked at where light is scattered.
-constexpr std::size_t most_candidates = 16;
-
-double largest(const glm::dvec3& v)
-{
-  return std::max({ v.x, v.y, v.z });
-}
-
-double mean(const glm::dvec3& v)
-{
-  return (v.x + v.y + v.z) / 3.0;
-}
 
 /// e^(−depth · channels); mostly the channels are alike.
 glm::dvec3 passing(double depth, const glm::dvec3& channels)
@@ -43,22 +34,6 @@ glm::dvec3 passing(double depth, const glm::dvec3& channels)
 }
 
 }
-
-/// A path so far. Its events were drawn by the extinctions of one channel, the hero, which was drawn
-/// itself; chances[c] is the density of these events had it been channel c, by that of the hero. By
-/// the balance heuristic over the three each estimate counts by `chances` over their mean (B. Miller,
-/// I. Georgiev, W. Jarosz, A null-scattering path integral formulation of light transport, SIGGRAPH
-/// 2019; the hero: A. Wilkie et al., Hero wavelength spectral sampling, EGSR 2014).
-struct PathScene::Path
-{
-  RandomStream& random;
-  PathCounts& counts;
-  int hero = 0;
-  glm::dvec3 chances{ 1.0 };
-  glm::dvec3 kept{ 1.0 }; ///< the albedos on the way, by the chances of having gone on
-
-  glm::dvec3 weight() const { return this->kept * this->chances / mean(this->chances); }
-};
 
 /// Tentative collisions of one matter along a ray: a Poisson process whose rate is constant in each
 /// brick (E. R. Woodcock et al. 1965; bricks: L. Szirmay-Kalos et al. 2011).
@@ -111,16 +86,13 @@ private:
   double Rate = 0.0;
 };
 
-struct PathScene::Collision
-{
-  double at = infinity;
-  const PathMatter* matter = nullptr;
-  glm::dvec3 place{ 0.0 }; ///< index space
-  glm::dvec3 emitted{ 0.0 };
-};
-
-PathScene::PathScene(const Scene& scene)
+PathScene::PathScene(const Scene& scene,
+  int most_scatterings,
+  std::shared_ptr<const EnvironmentMap> map,
+  const glm::dmat3& world_from_map)
   : TheScene(scene)
+  , Around(scene.sky, std::move(map), world_from_map)
+  , MostScatterings(most_scatterings)
 {
   scene.validate();
   if (scene.blend_mode != BlendMode::Composite)
@@ -132,13 +104,21 @@ PathScene::PathScene(const Scene& scene)
   {
     this->Media.emplace_back(scene, volume);
   }
-  this->Matter = find_path_matter(scene, this->Media);
+  if (!scene.volumes.empty())
+  {
+    this->Matter = find_path_matter(scene, this->Media);
+  }
   for (const auto& matter : this->Matter)
   {
     const glm::dvec3& k = matter->channels();
     this->Coloured |= k.x != k.y || k.y != k.z;
   }
-  this->Glows = largest(scene.sky.radiance) > 0.0 || largest(scene.sky.ground) > 0.0 ||
+  if (has_fog(scene))
+  {
+    this->Fog = std::make_unique<PathFog>(scene, most_scatterings);
+    this->Coloured |= this->Fog->is_coloured();
+  }
+  this->Glows = this->Around.shines() ||
                 std::any_of(this->Matter.begin(), this->Matter.end(),
                   [](const auto& matter) { return matter->emits(); });
   double sum = 0.0;
@@ -155,12 +135,126 @@ PathScene::PathScene(const Scene& scene)
   {
     up_to /= sum;
   }
+  for (const Lamp& lamp : this->Lamps)
+  {
+    this->NearRadius.push_back(this->near_radius(lamp));
+    if (this->NearRadius.back() > 0.0)
+    {
+      this->NearLamps.push_back({ &lamp, this->NearRadius.back() });
+    }
+  }
+  this->AroundIsSought = this->Around.has_map();
+  this->find_packets();
+}
+
+void PathScene::find_packets()
+{
+  // More suns are drawn by their power first, which packets do not.
+  const bool even = this->Matter.size() == 1 && !this->Coloured && !this->Fog &&
+                    !this->Around.has_map() &&
+                    this->Lamps.size() <= most_candidates &&
+                    std::none_of(this->Lamps.begin(),
+                      this->Lamps.end(),
+                      [](const Lamp& lamp) { return lamp.is_positional(); });
+  if (!even)
+  {
+    return;
+  }
+  const PathMatter& matter = *this->Matter.front();
+  const Volume& volume = matter.volume();
+  if (!matter.has_voxels() || matter.is_cut() || matter.emits())
+  {
+    return;
+  }
+  auto packets = std::make_unique<PathPacketScene>();
+  packets->matter = &matter;
+  const PathBricks& bricks = matter.bricks();
+  const double channel = matter.channels().x;
+  packets->bricks.reserve(2 * bricks.rate.size());
+  for (std::size_t i = 0; i < bricks.rate.size(); ++i)
+  {
+    // Bounds stay bounds in single precision.
+    const float rate = std::nextafter(static_cast<float>(bricks.rate[i]), HUGE_VALF);
+    const float least = std::nextafter(static_cast<float>(channel * bricks.least[i]), 0.0f);
+    packets->bricks.push_back(
+      bricks.rate[i] > 0.0 ? rate : -static_cast<float>(std::max(bricks.distance[i], 1)));
+    packets->bricks.push_back(least);
+  }
+  packets->shift = bricks.shift;
+  const Grid& grid = volume.grid;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    packets->brick_dims[axis] = bricks.dims[axis];
+    packets->lower[axis] = static_cast<float>(grid.lower(axis));
+    packets->upper[axis] = static_cast<float>(grid.upper(axis));
+    packets->first[axis] = grid.first[axis];
+    packets->last[axis] = grid.dims[axis] - 1;
+    packets->albedo[axis] = static_cast<float>(volume.medium.albedo[axis]);
+    packets->sky[axis] = static_cast<float>(this->TheScene.sky.radiance[axis]);
+    packets->ground[axis] = static_cast<float>(this->TheScene.sky.ground[axis]);
+    packets->up[axis] = static_cast<float>(this->TheScene.sky.up[axis]);
+    for (int column = 0; column < 3; ++column)
+    {
+      packets->index_from_world[3 * axis + column] =
+        static_cast<float>(matter.index_from_world()[column][axis]);
+      packets->data_from_index[3 * axis + column] =
+        static_cast<float>(matter.data_from_index()[column][axis]);
+    }
+  }
+  constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
+  if (2 * bricks.rate.size() > most)
+  {
+    return;
+  }
+  if (grid.voxels && grid.type == VoxelType::Float32 &&
+      grid.voxel_count() * grid.components <= most)
+  {
+    packets->voxels = static_cast<const float*>(grid.voxels) + grid.component;
+  }
+  else if (grid.sparse && grid.type == VoxelType::Float32 &&
+           grid.sparse->table().directory.empty() &&
+           grid.sparse->slot_count() * SparseVoxels::brick_voxels <= most)
+  {
+    packets->voxels = static_cast<const float*>(grid.sparse->pool());
+    packets->table = &grid.sparse->table();
+  }
+  packets->components = grid.components;
+  packets->scale = static_cast<float>(volume.density.extinction * volume.weight * channel);
+  for (const Lamp& lamp : this->Lamps)
+  {
+    const glm::dvec3 offset = lamp.offset(glm::dvec3(0.0));
+    const glm::dvec3 toward = -lamp.travel(offset);
+    const glm::dvec3 light = lamp.irradiance(offset);
+    packets->suns.push_back({ { float(toward.x), float(toward.y), float(toward.z) },
+      { float(light.x), float(light.y), float(light.z) } });
+  }
+  packets->glows = this->Glows;
+  this->Packets = std::move(packets);
+}
+
+bool PathScene::find_start(const Sight& sight, PathStart& start) const
+{
+  const MatterRay ray = this->Matter.front()->ray(sight.begin, sight.along);
+  const double to = std::min(ray.to, sight.length);
+  if (!(ray.from < to))
+  {
+    return false;
+  }
+  const glm::dvec3 place = ray.begin + ray.from * ray.along;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    start.begin[axis] = static_cast<float>(place[axis]);
+    start.direction[axis] = static_cast<float>(sight.along[axis]);
+  }
+  start.length = static_cast<float>(to - ray.from);
+  return true;
 }
 
 bool PathScene::can_send() const
 {
   const bool lit = !this->Lamps.empty() || this->Glows;
-  return std::any_of(this->Matter.begin(), this->Matter.end(),
+  return (this->Fog && this->Fog->scatters() && lit) ||
+         std::any_of(this->Matter.begin(), this->Matter.end(),
     [lit](const auto& matter) { return matter->emits() || (lit && matter->scatters()); });
 }
 
@@ -179,8 +273,10 @@ std::size_t PathScene::non_finite_voxels() const
 
 bool PathScene::has_kinks() const
 {
-  return std::any_of(this->Media.begin(), this->Media.end(),
-    [](const ReferenceMedium& medium) { return medium.is_density() && medium.ranges().lower < 0.0f; });
+  return std::any_of(this->Media.begin(),
+    this->Media.end(),
+    [](const ReferenceMedium& medium)
+    { return medium.is_density() && medium.ranges().lower < 0.0f; });
 }
 
 /// The first real collision, if there is one. Of several matters the tentative collisions are taken
@@ -224,8 +320,9 @@ bool PathScene::collide(const glm::dvec3& begin,
   }
   while (count > 0)
   {
-    Tracker& first = *std::min_element(
-      trackers, trackers + count, [](const Tracker& a, const Tracker& b) { return a.at() < b.at(); });
+    Tracker& first = *std::min_element(trackers,
+      trackers + count,
+      [](const Tracker& a, const Tracker& b) { return a.at() < b.at(); });
     if (first.at() == infinity)
     {
       return false;
@@ -236,7 +333,7 @@ bool PathScene::collide(const glm::dvec3& begin,
     const double rate = first.brick_rate();
     if (matter.emits())
     {
-      found.emitted += path.weight() * matter.emission(place) / rate;
+      found.emitted += path.weight(first.at()) * matter.emission(place) / rate;
     }
     const double density = matter.density(place, path.random);
     const glm::dvec3 real = glm::min(density / rate * matter.channels(), 1.0); // but for rounding
@@ -261,8 +358,8 @@ bool PathScene::collide(const glm::dvec3& begin,
 }
 
 /// Residual ratio tracking: what is in a brick everywhere dims in closed form, and collisions with
-/// the rest count by what they let through (J. Novák, A. Selle, W. Jarosz, Residual ratio tracking for
-/// estimating attenuation in participating media, SIGGRAPH Asia 2014).
+/// the rest count by what they let through (J. Novák, A. Selle, W. Jarosz, Residual ratio tracking
+/// for estimating attenuation in participating media, SIGGRAPH Asia 2014).
 glm::dvec3 PathScene::transmittance(const glm::dvec3& begin,
   const glm::dvec3& along,
   double length,
@@ -317,117 +414,6 @@ glm::dvec3 PathScene::transmittance(const glm::dvec3& begin,
     passes *= passing(depth, channels);
   }
   return passes;
-}
-
-/// One lamp is followed, with a chance that is its share of what would arrive from all without shadows.
-/// Of many lamps a few are drawn by their power first, and that is done among them, which is unbiased,
-/// too (J. Talbot, D. Cline, P. Egbert, Importance resampling for global illumination, EGSR 2005).
-glm::dvec3 PathScene::lit(const glm::dvec3& place,
-  const glm::dvec3& along,
-  const PhaseSampler& phase,
-  Path& path) const
-{
-  const std::size_t lamps = this->Lamps.size();
-  const bool all = lamps <= most_candidates;
-  const Lamp* chosen = nullptr;
-  glm::dvec3 arrives(0.0);
-  double chosen_brightness = 0.0;
-  double sum = 0.0;
-  for (std::size_t i = 0; i < std::min(lamps, most_candidates); ++i)
-  {
-    std::size_t which = i;
-    double weight = 1.0; // of one candidate, by the chance to be one
-    if (!all)
-    {
-      const auto end = this->LampUpTo.end() - 1;
-      const auto at = std::upper_bound(this->LampUpTo.begin(), end, path.random.uniform());
-      which = at - this->LampUpTo.begin();
-      const double chance = *at - (which > 0 ? this->LampUpTo[which - 1] : 0.0);
-      weight = 1.0 / (chance * static_cast<double>(most_candidates));
-    }
-    const Lamp& lamp = this->Lamps[which];
-    const glm::dvec3 offset = lamp.offset(place);
-    const glm::dvec3 light = lamp.irradiance(offset) * phase.value(along, -lamp.travel(offset));
-    const double brightness = largest(path.kept * light);
-    if (!(brightness > 0.0))
-    {
-      continue;
-    }
-    sum += weight * brightness;
-    if (!chosen || path.random.uniform() * sum < weight * brightness)
-    {
-      chosen = &lamp;
-      arrives = light;
-      chosen_brightness = brightness;
-    }
-  }
-  if (!chosen)
-  {
-    return glm::dvec3(0.0);
-  }
-  const glm::dvec3 offset = chosen->offset(place);
-  const double way = chosen->is_positional() ? glm::length(offset) : infinity;
-  ++path.counts.shadow_rays;
-  return arrives * (sum / chosen_brightness) *
-         this->transmittance(place, -chosen->travel(offset), way, path);
-}
-
-glm::dvec3 PathScene::sky(const glm::dvec3& direction) const
-{
-  const Sky& sky = this->TheScene.sky;
-  return glm::dot(direction, sky.up) >= 0.0 ? sky.radiance : sky.ground;
-}
-
-glm::dvec3 PathScene::radiance(const glm::dvec3& begin,
-  const glm::dvec3& along,
-  double length,
-  int most_scatterings,
-  RandomStream& random,
-  PathCounts& counts) const
-{
-  Path path{ random, counts };
-  if (this->Coloured)
-  {
-    path.hero = static_cast<int>(3.0 * random.uniform());
-  }
-  glm::dvec3 sum(0.0);
-  glm::dvec3 place = begin;
-  glm::dvec3 direction = along;
-  for (int scatterings = 0;; ++scatterings)
-  {
-    Collision found;
-    const bool collides = this->collide(place, direction, length, path, found);
-    sum += found.emitted;
-    if (!collides)
-    {
-      return scatterings > 0 ? sum + path.weight() * this->sky(direction) : sum;
-    }
-    if (!found.matter->scatters() || (most_scatterings > 0 && scatterings == most_scatterings))
-    {
-      return sum;
-    }
-    path.kept *= found.matter->albedo(found.place);
-    const double weight = largest(path.weight());
-    if (weight < least_weight)
-    {
-      const double chance = weight / (2.0 * least_weight);
-      if (!(weight > 0.0) || random.uniform() >= chance)
-      {
-        return sum;
-      }
-      path.kept /= chance;
-    }
-    ++counts.scatterings;
-    place += found.at * direction;
-    const PhaseSampler& phase = found.matter->phase();
-    sum += path.weight() * this->lit(place, direction, phase, path);
-    if (scatterings + 1 == most_scatterings && !this->Glows)
-    {
-      return sum; // nothing more can come
-    }
-    direction = phase.sample(direction, random);
-    length = infinity;
-  }
 }
 
 }

@@ -1,11 +1,10 @@
 #include "Transport/path_tracer.h"
 
 #include "Transport/path_error.h"
+#include "Transport/path_pixels.h"
 #include "Transport/path_scene.h"
-#include "Transport/reference_ray.h"
+#include "Transport/path_sights.h"
 #include "Transport/step_control.h"
-
-#include <glm/geometric.hpp>
 
 #include <tbb/blocked_range.h>
 #include <tbb/info.h>
@@ -35,36 +34,33 @@ constexpr int fewest_samples = PathSettings::fewest_samples;
 /// Paths a pixel of one pass, at the most: a pass is what is waited for when time is short.
 constexpr int most_of_pass = 64;
 
-/// How many times the paths of a pixel one pass may multiply, where pixels have their own number: what
-/// they are by is an estimate that the pass betters.
-constexpr double most_growth = 3.0;
+/// Paths that are handed out together, about.
+constexpr int paths_at_once = 4096;
 
-/// Paths between two looks at the clock, and between two calls of the progress.
-constexpr int paths_of_look = 64;
+/// How many times the paths of a pixel one pass may multiply, where pixels have their own number: what
+/// they are by is an estimate that the pass betters. Their numbers differ by whole steps of a part of
+/// what they have, so that many go together in packets.
+constexpr double most_growth = 3.0;
+constexpr int parts_of_growth = 8;
 
 double seconds_since(Clock::time_point start)
 {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-void check(const Scene& scene, const PathSettings& settings, const Film& film)
+void check(const PathSettings& settings, const Film& film)
 {
   if (settings.samples_per_pixel < 1 || !(settings.tolerance >= 0.0) ||
       !(settings.seconds >= 0.0) || settings.most_scatterings < 0 || !(settings.step >= 0.0) ||
       !(settings.beyond > 0.0 && settings.beyond < 1.0))
   {
     throw std::invalid_argument("path tracing needs at least one sample a pixel, a tolerance, "
-                                "a time, scatterings and a step that are not negative, and a share of "
-                                "pixels between 0 and 1");
+                                "a time, scatterings and a step that are not negative, and a share "
+                                "of pixels between 0 and 1");
   }
   if (film.width < 1 || film.height < 1)
   {
     throw std::invalid_argument("the film has no pixels");
-  }
-  if (scene.fog.enabled)
-  {
-    throw std::invalid_argument("paths are not traced through fog without bounds yet: take a ray "
-                                "march, or leave the fog out");
   }
 }
 
@@ -73,7 +69,7 @@ Scene without_light(const Scene& scene)
 {
   Scene dark = scene;
   dark.lights.clear();
-  dark.sky = Sky();
+  dark.sky.radiance = dark.sky.ground = glm::dvec3(0.0);
   for (Volume& volume : dark.volumes)
   {
     volume.medium = Medium();
@@ -89,47 +85,45 @@ struct PathTracer::Kept
   Marcher Absorption;
   int Width = 0;
   int Height = 0;
-  std::vector<double> Sums;    ///< R, G, B a pixel, over its paths
-  std::vector<double> Squares; ///< the same of squares
-  std::vector<int> Samples;    ///< paths of each pixel
-  Film Behind;                 ///< transmittance and depth
+  PathSums Paths;
+  Film Behind; ///< transmittance and depth
 
   void begin(const Film& film)
   {
     this->Width = 0; // until there is something to go on from
     this->Height = 0;
-    this->Sums.assign(3 * film.size(), 0.0);
-    this->Squares.assign(3 * film.size(), 0.0);
-    this->Samples.assign(film.size(), 0);
+    this->Paths = PathSums(film.size());
     this->Behind = Film(film.width, film.height);
   }
   bool fits(const Film& film) const
   {
     return this->Width == film.width && this->Height == film.height;
   }
-  int fewest() const { return *std::min_element(this->Samples.begin(), this->Samples.end()); }
-
+  int fewest() const
+  {
+    return *std::min_element(this->Paths.samples.begin(), this->Paths.samples.end());
+  }
   double mean_samples() const
   {
     double sum = 0.0;
-    for (const int n : this->Samples)
+    for (const int n : this->Paths.samples)
     {
       sum += n;
     }
-    return sum / static_cast<double>(this->Samples.size());
+    return sum / static_cast<double>(this->Paths.samples.size());
   }
 
   /// The variance of a pixel's paths.
   double variance_of_path(std::size_t pixel, int channel) const
   {
-    const int n = this->Samples[pixel];
-    const double sum = this->Sums[3 * pixel + channel];
-    return n < 2 ? 0.0 : std::max(this->Squares[3 * pixel + channel] - sum * (sum / n), 0.0) / (n - 1);
+    const int n = this->Paths.samples[pixel];
+    const double sum = this->Paths.sums[3 * pixel + channel];
+    return n < 2 ? 0.0 : std::max(this->Paths.squares[3 * pixel + channel] - sum * (sum / n), 0.0) / (n - 1);
   }
   /// The variance of their mean.
   double variance(std::size_t pixel, int channel) const
   {
-    return this->variance_of_path(pixel, channel) / std::max(this->Samples[pixel], 1);
+    return this->variance_of_path(pixel, channel) / std::max(this->Paths.samples[pixel], 1);
   }
   /// The largest of a pixel's channels, of its paths; no less than the mean of the pixels around it, as
   /// samples that are all alike tell little.
@@ -157,7 +151,7 @@ struct PathTracer::Kept
     {
       for (int x = 0; x < this->Width; ++x)
       {
-        const int n = this->Samples[static_cast<std::size_t>(y) * this->Width + x];
+        const int n = this->Paths.samples[static_cast<std::size_t>(y) * this->Width + x];
         double v[3];
         this->careful_variance(x, y, v);
         for (double& channel : v)
@@ -169,10 +163,11 @@ struct PathTracer::Kept
     }
     return error;
   }
-  /// Paths that bring each pixel's standard error down to `cap`, from one pass to the next.
-  void find_targets(double cap, int most, std::vector<int>& targets) const
+  /// Paths that bring each pixel's standard error down to `cap`, from one pass to the next; at the least or
+  /// about.
+  void find_targets(double cap, int most, bool at_least, std::vector<int>& targets) const
   {
-    targets.resize(this->Samples.size());
+    targets.resize(this->Paths.samples.size());
     for (int y = 0; y < this->Height; ++y)
     {
       for (int x = 0; x < this->Width; ++x)
@@ -180,13 +175,16 @@ struct PathTracer::Kept
         const std::size_t pixel = static_cast<std::size_t>(y) * this->Width + x;
         double v[3];
         this->careful_variance(x, y, v);
-        const double n = this->Samples[pixel];
+        const double n = this->Paths.samples[pixel];
         const double largest = std::max({ v[0], v[1], v[2] });
         const double highest = std::max<double>(n, std::min<double>(most, most_growth * n));
-        const double wanted = largest == 0.0                               ? n
+        const double wanted = largest == 0.0                        ? n
                               : cap > 0.0 && std::isfinite(largest) ? largest / (cap * cap)
-                                                                           : highest;
-        targets[pixel] = static_cast<int>(std::ceil(std::clamp(wanted, n, highest)));
+                                                                    : highest;
+        const double part = std::max(std::floor(n / parts_of_growth), 1.0);
+        const double parts = (std::clamp(wanted, n, highest) - n) / part;
+        const double target = n + part * (at_least ? std::ceil(parts) : std::round(parts));
+        targets[pixel] = static_cast<int>(std::min<double>(target, most));
       }
     }
   }
@@ -198,11 +196,11 @@ struct PathTracer::Kept
     film.depth = this->Behind.depth;
     for (std::size_t pixel = 0; pixel < film.size(); ++pixel)
     {
-      const int n = std::max(this->Samples[pixel], 1);
+      const int n = std::max(this->Paths.samples[pixel], 1);
       double largest = 0.0;
       for (int c = 0; c < 3; ++c)
       {
-        film.radiance[c][pixel] = static_cast<float>(this->Sums[3 * pixel + c] / n);
+        film.radiance[c][pixel] = static_cast<float>(this->Paths.sums[3 * pixel + c] / n);
         largest = std::max(largest, this->variance(pixel, c));
       }
       film.error[pixel] = static_cast<float>(3.0 * std::sqrt(largest));
@@ -222,13 +220,13 @@ PathStatistics PathTracer::render(const Scene& scene,
   Film& film,
   const Progress& progress)
 {
-  check(scene, settings, film);
+  check(settings, film);
   Kept& kept = *this->Internal;
   PathStatistics statistics;
   const auto begin = Clock::now();
-  const PathScene paths(scene);
-  statistics.threads =
-    settings.threads > 0 ? settings.threads : tbb::info::default_concurrency();
+  const PathScene paths(
+    scene, settings.most_scatterings, settings.environment, settings.world_from_environment);
+  statistics.threads = settings.threads > 0 ? settings.threads : tbb::info::default_concurrency();
   statistics.non_finite_voxels = paths.non_finite_voxels();
   if (!settings.resume || !kept.fits(film))
   {
@@ -237,14 +235,16 @@ PathStatistics PathTracer::render(const Scene& scene,
     march.leave_error = 1e-5;
     march.threads = settings.threads;
     const Scene dark = without_light(scene);
-    const double step = settings.step > 0.0 ? settings.step : 0.125 * smallest_voxel_edge(scene);
+    const double step = settings.step > 0.0      ? settings.step
+                        : scene.volumes.empty() ? 1.0
+                                                : 0.125 * smallest_voxel_edge(scene);
     const bool exact = follows_rule(dark, StepRule::Cells) && !paths.has_kinks();
     march.rule = exact ? StepRule::Cells : StepRule::Midpoint;
     march.step = march.rule == StepRule::Cells ? smallest_voxel_edge(scene) : step;
-    const bool whole = kept.Absorption
-                         .render(dark, march, kept.Behind,
-                           [&](double) { return !progress || progress(0.0); })
-                         .completed;
+    const bool whole =
+      kept.Absorption
+        .render(dark, march, kept.Behind, [&](double) { return !progress || progress(0.0); })
+        .completed;
     if (!whole)
     {
       return statistics;
@@ -258,17 +258,18 @@ PathStatistics PathTracer::render(const Scene& scene,
   // Of the paths alone.
   const double seconds = std::max(
     settings.seconds - (settings.seconds_of_all ? statistics.seconds_prepare : 0.0), 0.0);
-  const ReferenceRays rays(scene, film.width, film.height);
+  const PathSights sights(scene, film.width, film.height);
   const std::thread::id caller = std::this_thread::get_id();
   std::atomic<bool> aborted{ false };
   std::atomic<std::uint64_t> collisions{ 0 };
   std::atomic<std::uint64_t> scatterings{ 0 };
   std::atomic<std::uint64_t> shadow_rays{ 0 };
   std::atomic<std::uint64_t> traced{ 0 };
+  const int already = kept.fewest();
   std::atomic<bool> late{ false };
 
   /// Brings every pixel to its target; `from` and `part` are of the progress.
-  const auto pass = [&](const auto& target, double from, double part, bool may_be_late)
+  const auto pass = [&](const PathTargets& targets, double from, double part, bool may_be_late)
   {
     std::atomic<int> rows{ 0 };
     tbb::task_arena arena(statistics.threads);
@@ -279,69 +280,55 @@ PathStatistics PathTracer::render(const Scene& scene,
           tbb::blocked_range<int>(0, film.height, 1),
           [&](const tbb::blocked_range<int>& range)
           {
-            int unlooked = 0; // paths since the last look
             for (int y = range.begin(); y != range.end(); ++y)
             {
               PathCounts counts;
-              std::uint64_t followed = 0;
-              for (int x = 0; x < film.width && !aborted && !late; ++x)
+              int x = 0;
+              while (x < film.width && !aborted && !late)
               {
-                const std::size_t pixel = static_cast<std::size_t>(y) * film.width + x;
-                int& samples = kept.Samples[pixel];
-                const int last = target(pixel);
-                const PixelRay ray = rays.ray(x, y);
-                const bool empty = ray.empty() || !(ray.world_length > 0.0);
-                if (empty)
+                // So many pixels at once that packets of paths are full, and no wait is long.
+                int end = x;
+                int many = 0;
+                PathTargets some = targets;
+                while (end < film.width && many < paths_at_once)
                 {
-                  samples = std::max(samples, last);
+                  const std::size_t pixel = static_cast<std::size_t>(y) * film.width + end;
+                  const int first = kept.Paths.samples[pixel];
+                  const int more = targets.of(pixel) - first;
+                  if (more > paths_at_once)
+                  {
+                    // By itself, a part at a time.
+                    some.all = end == x ? first + paths_at_once : targets.all;
+                    end += end == x;
+                    break;
+                  }
+                  many += std::max(more, 0);
+                  ++end;
                 }
-                const glm::dvec3 along =
-                  empty ? glm::dvec3(0.0) : ray.world_along / ray.world_length;
-                double* sums = &kept.Sums[3 * pixel];
-                double* squares = &kept.Squares[3 * pixel];
-                for (; samples < last && !aborted && !late; ++samples, ++followed)
+                traced += trace_pixels(paths, sights, film.width, y, x, end, some, settings.seed,
+                  kept.Paths, counts);
+                const bool whole = some.all == targets.all;
+                x = whole ? end : x;
+                if (may_be_late && seconds_since(start) > seconds)
                 {
-                  RandomStream random(settings.seed, pixel, static_cast<std::uint32_t>(samples));
-                  const glm::dvec3 radiance = paths.radiance(ray.world_begin, along,
-                    ray.world_length, settings.most_scatterings, random, counts);
-                  for (int c = 0; c < 3; ++c)
-                  {
-                    sums[c] += radiance[c];
-                    squares[c] += radiance[c] * radiance[c];
-                  }
-                  if (++unlooked < paths_of_look)
-                  {
-                    continue;
-                  }
-                  unlooked = 0;
-                  if (may_be_late && seconds_since(start) > seconds)
-                  {
-                    late = true;
-                  }
-                  if (progress && std::this_thread::get_id() == caller &&
-                      !progress(std::min(from + part * rows / film.height, 1.0)))
-                  {
-                    aborted = true;
-                  }
+                  late = true;
+                }
+                if (progress && std::this_thread::get_id() == caller &&
+                    !progress(std::min(from + part * rows / film.height, 1.0)))
+                {
+                  aborted = true;
                 }
               }
-              traced += followed;
               collisions += counts.collisions;
               scatterings += counts.scatterings;
               shadow_rays += counts.shadow_rays;
               ++rows;
-              if (progress && std::this_thread::get_id() == caller &&
-                  !progress(std::min(from + part * rows / film.height, 1.0)))
-              {
-                aborted = true;
-              }
             }
           },
           tbb::simple_partitioner());
       });
   };
 
-  const int already = kept.fewest();
   std::vector<int> targets;
   int target = already;
   while (paths.can_send() && target < settings.samples_per_pixel && !aborted && !late)
@@ -369,24 +356,25 @@ PathStatistics PathTracer::render(const Scene& scene,
                      ? 0.99 * error.cap(settings.tolerance, settings.beyond)
                      : 0.0;
       double more = cap > 0.0 ? error.paths_to(cap) : 1e300;
-      if (more > affordable)
+      const bool short_of_time = more > affordable;
+      if (short_of_time)
       {
         more = affordable;
         cap = error.cap_of(more);
       }
-      kept.find_targets(cap, settings.samples_per_pixel, targets);
+      kept.find_targets(cap, settings.samples_per_pixel, !short_of_time, targets);
       double in_pass = 0.0;
       for (std::size_t pixel = 0; pixel < targets.size(); ++pixel)
       {
-        in_pass += targets[pixel] - kept.Samples[pixel];
+        in_pass += targets[pixel] - kept.Paths.samples[pixel];
       }
       if (in_pass < 1.0 || (timed && affordable < 0.01 * done))
       {
         break;
       }
       more = std::max(more, in_pass);
-      pass([&](std::size_t pixel) { return targets[pixel]; }, done / (done + more),
-        in_pass / (done + more), timed);
+      pass({ settings.samples_per_pixel, targets.data() }, done / (done + more), in_pass / (done + more),
+        timed);
       continue;
     }
     // Passes double at first, so that what is asked between them costs little.
@@ -412,11 +400,11 @@ PathStatistics PathTracer::render(const Scene& scene,
     const double all = std::max(settings.samples_per_pixel - already, 1);
     more = std::min<double>(more, settings.samples_per_pixel - target);
     target += static_cast<int>(more);
-    pass([&](std::size_t) { return target; }, so_far / all, more / all, timed && so_far > 0);
+    pass({ target }, so_far / all, more / all, timed && so_far > 0);
   }
   if (!paths.can_send())
   {
-    std::fill(kept.Samples.begin(), kept.Samples.end(), settings.samples_per_pixel);
+    std::fill(kept.Paths.samples.begin(), kept.Paths.samples.end(), settings.samples_per_pixel);
   }
   kept.show(film);
   statistics.samples_per_pixel = kept.fewest();

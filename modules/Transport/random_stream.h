@@ -14,7 +14,10 @@ class RandomStream
 {
 public:
   RandomStream(std::uint32_t seed, std::uint64_t pixel, std::uint32_t sample)
-    : Counter{ 0, sample, static_cast<std::uint32_t>(pixel), static_cast<std::uint32_t>(pixel >> 32) }
+    : Counter{ 0,
+      sample,
+      static_cast<std::uint32_t>(pixel),
+      static_cast<std::uint32_t>(pixel >> 32) }
     , Seed(seed)
   {
   }
@@ -24,7 +27,7 @@ public:
   {
     if (this->Used == 4)
     {
-      this->Block = block(this->Counter, { this->Seed, 0x42727565u }); // a key of Brume's own
+      this->Block = block(this->Counter, { this->Seed, own_key });
       ++this->Counter[0];
       this->Used = 0;
     }
@@ -34,20 +37,28 @@ public:
   /// The middle of one of 2³² equal parts of [0, 1]: never 0, never 1.
   double uniform() { return (this->bits() + 0.5) * 0x1p-32; }
 
+  /// What the function consists of.
+  ///@{
+  static constexpr int rounds = 10;
+  static constexpr std::uint32_t factors[2] = { 0xD2511F53u, 0xCD9E8D57u };
+  static constexpr std::uint32_t key_steps[2] = { 0x9E3779B9u, 0xBB67AE85u };
+  static constexpr std::uint32_t own_key = 0x42727565u; ///< beside the seed
+  ///@}
+
   using Words = std::array<std::uint32_t, 4>;
   /// The function itself, of a counter and a key.
   static Words block(Words counter, std::array<std::uint32_t, 2> key)
   {
-    for (int round = 0; round < 10; ++round)
+    for (int round = 0; round < rounds; ++round)
     {
-      const std::uint64_t a = std::uint64_t{ 0xD2511F53u } * counter[0];
-      const std::uint64_t b = std::uint64_t{ 0xCD9E8D57u } * counter[2];
+      const std::uint64_t a = std::uint64_t{ factors[0] } * counter[0];
+      const std::uint64_t b = std::uint64_t{ factors[1] } * counter[2];
       counter = { static_cast<std::uint32_t>(b >> 32) ^ counter[1] ^ key[0],
         static_cast<std::uint32_t>(b),
         static_cast<std::uint32_t>(a >> 32) ^ counter[3] ^ key[1],
         static_cast<std::uint32_t>(a) };
-      key[0] += 0x9E3779B9u;
-      key[1] += 0xBB67AE85u;
+      key[0] += key_steps[0];
+      key[1] += key_steps[1];
     }
     return counter;
   }

@@ -1,64 +1,15 @@
 // Light that is scattered any number of times: published results of transport theory, and what must
 // hold whatever the medium.
-#include "../support/lit_scenes.h"
+#include "../support/path_truth.h"
 
 #include "Transport/path_tracer.h"
 
-#include <glm/ext/matrix_transform.hpp>
-
-#include <cstdlib>
 #include <iostream>
 
-using namespace lit_scenes;
+using namespace path_truth;
 
 namespace
 {
-
-/// The share of the paths that full tests trace: the environment variable BRUME_PATHS, 1 for the
-/// published accuracy of 0.1 %, else a sixteenth, and few under sanitizers.
-double effort()
-{
-  const char* text = std::getenv("BRUME_PATHS");
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  const double usual = 1.0 / 256.0;
-#else
-  const double usual = 1.0 / 16.0;
-#endif
-  return text ? std::max(std::atof(text), 1e-3) : usual;
-}
-
-/// Standard errors that a mean may be off. Of some fifty checks one is beyond three now and then, with another
-/// processor's last digits.
-double most_off()
-{
-  return std::getenv("BRUME_PATHS") ? 3.0 : 4.5;
-}
-
-struct Mean
-{
-  glm::dvec3 value{ 0.0 };
-  glm::dvec3 error{ 0.0 }; ///< standard error
-};
-
-/// Of all pixels, whose rays must be alike: mean and standard error, by how pixels differ.
-Mean mean_of(const Film& film)
-{
-  Mean mean;
-  const double count = static_cast<double>(film.size());
-  for (int c = 0; c < 3; ++c)
-  {
-    double sum = 0.0;
-    double squares = 0.0;
-    for (float v : film.radiance[c])
-    {
-      sum += v;
-      squares += double(v) * v;
-    }
-    mean.value[c] = sum / count;
-    mean.error[c] = std::sqrt(std::max(squares / count - mean.value[c] * mean.value[c], 0.0) / (count - 1.0));
-  }
-  return mean;
-}
 
 Film trace(const Scene& scene, int edge, int samples, int scatterings = 0, std::uint32_t seed = 1,
   PathStatistics* statistics = nullptr)
@@ -86,60 +37,6 @@ View narrow(const Slab& slab, double zenith)
   view.parallel = true;
   return view;
 }
-
-/// Chandrasekhar's H function for isotropic scattering: 1 / H(μ) = √(1 − ω) + ω/2 ∫ μ′ H(μ′) / (μ + μ′)
-/// dμ′ over [0, 1] (S. Chandrasekhar, Radiative Transfer, 1960, § 38), by iteration on a rule of
-/// Gauss and Kronrod's nodes.
-class HFunction
-{
-public:
-  explicit HFunction(double albedo)
-    : Albedo(albedo)
-  {
-    using Rule = boost::math::quadrature::gauss_kronrod<double, 61>;
-    const auto& x = Rule::abscissa();
-    const auto& w = Rule::weights();
-    for (std::size_t i = 0; i < x.size(); ++i)
-    {
-      for (double side : { -1.0, 1.0 })
-      {
-        if (i > 0 || side > 0.0)
-        {
-          this->Nodes.push_back(0.5 * (1.0 + side * x[i]));
-          this->Weights.push_back(0.5 * w[i]);
-        }
-      }
-    }
-    this->Values.assign(this->Nodes.size(), 1.0);
-    double change = 1.0;
-    for (int turn = 0; turn < 100000 && change > 1e-13; ++turn)
-    {
-      change = 0.0;
-      for (std::size_t i = 0; i < this->Nodes.size(); ++i)
-      {
-        const double next = 0.5 * (this->Values[i] + (*this)(this->Nodes[i]));
-        change = std::max(change, std::abs(next - this->Values[i]));
-        this->Values[i] = next;
-      }
-    }
-  }
-
-  double operator()(double mu) const
-  {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < this->Nodes.size(); ++i)
-    {
-      sum += this->Weights[i] * this->Nodes[i] * this->Values[i] / (mu + this->Nodes[i]);
-    }
-    return 1.0 / (std::sqrt(1.0 - this->Albedo) + 0.5 * this->Albedo * sum);
-  }
-
-private:
-  double Albedo;
-  std::vector<double> Nodes;
-  std::vector<double> Weights;
-  std::vector<double> Values;
-};
 
 }
 
@@ -190,7 +87,7 @@ TEST(PathTracing, HalfSpaceFollowsChandrasekhar)
         slab.add_sun(suns[c], 40.0, colour);
       }
       slab.scene.camera = narrow(slab, zenith).camera(1.0);
-      const Mean mean = mean_of(trace(slab.scene, 32, 3000));
+      const Mean mean = mean_of(trace(slab.scene, 32, 3400));
       const double mu = std::cos(zenith * pi / 180.0);
       for (int c = 0; c < 3; ++c)
       {

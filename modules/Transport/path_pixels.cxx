@@ -1,0 +1,89 @@
+#include "Transport/path_pixels.h"
+
+#include <map>
+
+namespace brume
+{
+
+namespace
+{
+
+void add(PathSums& result, std::size_t pixel, const glm::dvec3& radiance)
+{
+  for (int c = 0; c < 3; ++c)
+  {
+    result.sums[3 * pixel + c] += radiance[c];
+    result.squares[3 * pixel + c] += radiance[c] * radiance[c];
+  }
+}
+
+}
+
+std::uint64_t trace_pixels(const PathScene& scene,
+  const PathSights& sights,
+  int width,
+  int y,
+  int from,
+  int to,
+  const PathTargets& targets,
+  std::uint32_t seed,
+  PathSums& result,
+  PathCounts& counts)
+{
+  std::uint64_t traced = 0;
+  std::map<int, std::vector<PathStart>> together; // by the paths that they have to go
+  std::vector<float> radiance;
+  const auto flush = [&](int samples, const std::vector<PathStart>& starts)
+  {
+    radiance.resize(starts.size() * samples * 3);
+    trace_paths(*scene.packets(), starts, samples, scene.most_scatterings(), seed, radiance.data(), counts);
+    const float* next = radiance.data();
+    for (const PathStart& start : starts)
+    {
+      for (int n = 0; n < samples; ++n, next += 3)
+      {
+        add(result, start.pixel, glm::dvec3(next[0], next[1], next[2]));
+      }
+    }
+  };
+  for (int x = from; x < to; ++x)
+  {
+    const std::size_t pixel = static_cast<std::size_t>(y) * width + x;
+    const int first = result.samples[pixel];
+    const int target = targets.of(pixel);
+    if (first >= target)
+    {
+      continue;
+    }
+    result.samples[pixel] = target;
+    Sight sight;
+    if (!sights.find(x, y, sight))
+    {
+      continue;
+    }
+    traced += static_cast<std::uint64_t>(target - first);
+    if (scene.packets())
+    {
+      PathStart start;
+      start.pixel = static_cast<std::uint32_t>(pixel);
+      start.first = static_cast<std::uint32_t>(first);
+      if (scene.find_start(sight, start))
+      {
+        together[target - first].push_back(start);
+      }
+      continue;
+    }
+    for (int n = first; n < target; ++n)
+    {
+      RandomStream random(seed, pixel, static_cast<std::uint32_t>(n));
+      add(result, pixel, scene.radiance(sight, random, counts));
+    }
+  }
+  for (const auto& [samples, starts] : together)
+  {
+    flush(samples, starts);
+  }
+  return traced;
+}
+
+}

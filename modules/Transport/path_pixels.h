@@ -1,0 +1,54 @@
+// Paths of many pixels, added up. Internal to Transport.
+#pragma once
+
+#include "Transport/path_scene.h"
+#include "Transport/path_sights.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace brume
+{
+
+/// What the paths of each pixel have brought.
+struct PathSums
+{
+  std::vector<double> sums;    ///< R, G, B a pixel, over its paths
+  std::vector<double> squares; ///< the same of squares
+  std::vector<int> samples;    ///< paths of each pixel
+
+  explicit PathSums(std::size_t pixels = 0)
+    : sums(3 * pixels, 0.0)
+    , squares(3 * pixels, 0.0)
+    , samples(pixels, 0)
+  {
+  }
+};
+
+/// How many paths pixels are to have.
+struct PathTargets
+{
+  int all = 0;                ///< the most
+  const int* each = nullptr;  ///< of each pixel of the picture; null: `all`
+  int of(std::size_t pixel) const
+  {
+    return this->each && this->each[pixel] < this->all ? this->each[pixel] : this->all;
+  }
+};
+
+/// Brings the pixels [from, to) of the row y to their targets: in packets where the scene
+/// allows it, else one by one. The sums do not depend on how pixels and paths are cut into calls.
+/// Returns the number of paths traced.
+std::uint64_t trace_pixels(const PathScene& scene,
+  const PathSights& sights,
+  int width,
+  int y,
+  int from,
+  int to,
+  const PathTargets& targets,
+  std::uint32_t seed,
+  PathSums& result,
+  PathCounts& counts);
+
+}
