@@ -36,6 +36,10 @@ constexpr double latest_end = 1.1;
 constexpr double fewest_paths = 2.0;
 constexpr int most_paths = std::numeric_limits<int>::max();
 
+/// Rays along each side of the square that steps are chosen by: one for 64 pixels.
+constexpr int fewest_of_step_edge = 16;
+constexpr int most_of_step_edge = 64;
+
 /// Null for what is not known, which JSON has in its place.
 nlohmann::json number(double value)
 {
@@ -87,6 +91,8 @@ void vtkBrumeSmartVolumeMapper::March(Picture& picture)
   wanted.tolerance = std::max(
     this->Tolerance - picture.Choice.model_error, least_of_march * this->Tolerance);
   wanted.beyond = picture.Choice.beyond;
+  wanted.step_edge = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(picture.Film.size())) / 8.0),
+    fewest_of_step_edge, most_of_step_edge);
   wanted.forces = this->GetEffectPlan()->GetForces();
   wanted.threads = this->NumberOfThreads;
   choices.Update(this->Internal->Marcher, this->Internal->Chosen, wanted);

@@ -242,12 +242,16 @@ MarchFit MethodProbe::fit(Marcher& marcher, int octaves, double tolerance)
 {
   MarchFit fit;
   fit.octaves = octaves;
-  MarchSettings settings;
-  settings.step = smallest_voxel_edge(this->TheScene);
-  settings.leave_error = std::max(0.1 * tolerance, 1e-5);
-  settings.threads = this->Threads;
-  Film marched(this->Truth.width, this->Truth.height);
-  marcher.render(with_octaves(this->Seen, octaves), settings, marched);
+  const auto made = this->Marched.emplace(octaves, Film(this->Truth.width, this->Truth.height));
+  Film& marched = made.first->second;
+  if (made.second)
+  {
+    MarchSettings settings;
+    settings.step = smallest_voxel_edge(this->TheScene);
+    settings.leave_error = std::max(0.1 * tolerance, 1e-5);
+    settings.threads = this->Threads;
+    marcher.render(with_octaves(this->Seen, octaves), settings, marched);
+  }
   double sum = 0.0;
   double squares = 0.0;
   for (std::size_t pixel = 0; pixel < marched.size(); ++pixel)

@@ -9,7 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -100,6 +100,7 @@ private:
   int Threads;
   PathTracer Tracer;
   Film Truth;
+  std::map<int, Film> Marched; ///< by octaves
   int Samples = 0;
   std::uint64_t Traced = 0;
   double Seconds = 0.0;

@@ -289,7 +289,8 @@ StepChoice choose_step(Marcher& marcher,
   double tolerance,
   int threads,
   const MarchSettings& base,
-  double beyond)
+  double beyond,
+  int edge)
 {
   // Shadow rays would be dear here, and what bends in a light volume bends for them.
   MarchSettings cheap = base;
@@ -299,14 +300,14 @@ StepChoice choose_step(Marcher& marcher,
     cheap.shadow_step = 0.0;
     cheap.precise_shadows = true;
   }
-  Probe probe(marcher, scene, tolerance, threads, cheap);
+  Probe probe(marcher, scene, tolerance, threads, cheap, edge);
   StepChoice choice;
   // In voxel edges. Light from one side bends where matter alone does not.
   const bool lit = is_lit(scene);
   const double least = beyond > 0.0                      ? shortest_of_share
                        : lit && tolerance < sharpest_below ? shortest_lit
                                                            : shortest;
-  const int passed_over = std::max(beyond > 0.0 ? credible_count(probes * probes, beyond) : 0, 0);
+  const int passed_over = std::max(beyond > 0.0 ? credible_count(edge * edge, beyond) : 0, 0);
   const double margin = beyond > 0.0 ? 1.0 : unseen;
   // The largest that counts.
   const auto counting = [passed_over](std::vector<double> errors)
