@@ -47,6 +47,7 @@ public:
 // A callback returns when it is done and throws Failure when it cannot do its work.
 void add_compare(CLI::App& program);
 void add_convert(CLI::App& program);
+void add_cost(CLI::App& program);
 void add_generate(CLI::App& program);
 void add_info(CLI::App& program);
 void add_plan(CLI::App& program);

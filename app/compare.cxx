@@ -6,6 +6,7 @@
 #include "machine.h"
 #include "mapper_names.h"
 #include "option_checks.h"
+#include "output_folder.h"
 #include "presets.h"
 #include "private_display.h"
 #include "scene_description.h"
@@ -30,7 +31,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -41,8 +41,6 @@ namespace brume::app
 namespace
 {
 
-namespace fs = std::filesystem;
-
 struct Options
 {
   SceneOptions scene;
@@ -51,65 +49,6 @@ struct Options
   std::vector<std::string> mappers;
   int repetitions = 5;
   std::string command_line;
-};
-
-/// The folder is made before the work, so that a place that cannot be written is told at once.
-/// Folders that were made here go again when the work fails.
-class OutputFolder
-{
-public:
-  explicit OutputFolder(const std::string& path)
-    : Path(path)
-  {
-    std::error_code error;
-    fs::path missing = fs::absolute(path, error);
-    while (!missing.empty() && !fs::exists(fs::symlink_status(missing, error)))
-    {
-      this->Made = missing;
-      missing = missing.parent_path();
-    }
-    fs::create_directories(path, error);
-    if (error || !fs::is_directory(path, error))
-    {
-      this->remove();
-      throw Failure(path, "the output folder cannot be made (" +
-          (error ? error.message() : std::string("a file is there")) + ")",
-        "name another with --output");
-    }
-    try
-    {
-      // Tries to write, and takes it back.
-      AtomicFile probe((fs::path(path) / "compare.json").string());
-    }
-    catch (const std::runtime_error& failure)
-    {
-      this->remove();
-      throw Failure(failure.what());
-    }
-  }
-  ~OutputFolder()
-  {
-    if (!this->Kept)
-    {
-      this->remove();
-    }
-  }
-  void keep() { this->Kept = true; }
-  std::string file(const std::string& name) const { return (fs::path(this->Path) / name).string(); }
-
-private:
-  void remove()
-  {
-    std::error_code error;
-    if (!this->Made.empty())
-    {
-      fs::remove_all(this->Made, error);
-    }
-  }
-
-  std::string Path;
-  fs::path Made; ///< the topmost folder that was not there before; empty when all were
-  bool Kept = false;
 };
 
 /// The mappers that are to be drawn; those that need a display and have none are skipped.
@@ -189,7 +128,7 @@ void run(const Options& options)
     find_preset(options.scene.preset);
   }
   const InterruptionWatch watch; // first, so that a folder that is made here goes again
-  OutputFolder folder(options.output);
+  OutputFolder folder(options.output, "compare.json");
   const VolumeScene scene = make_volume_scene(options.scene);
   const double step = options.scene.sample_distance.value_or(0.5 * scene.voxel_edge);
 

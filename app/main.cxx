@@ -38,6 +38,7 @@ int main(int argc, char** argv)
   program.footer("brume SUBCOMMAND --help tells its options.");
   add_compare(program);
   add_convert(program);
+  add_cost(program);
   add_generate(program);
   add_info(program);
   add_plan(program);

@@ -20,6 +20,8 @@ public:
   /// The part of the work that is done, in [0, 1]; what is outside is clamped. Draws at most ten
   /// times a second, so that it may be called often.
   void update(double done);
+  /// Another label from the next update() on.
+  void relabel(const std::string& label) { label_ = label; }
   /// Wipes the bar, before something else is written to the terminal.
   void clear();
 

@@ -12,4 +12,7 @@ namespace brume
 /// Throws std::invalid_argument, naming the mapper, when they are not a JSON object.
 nlohmann::ordered_json parse_statistics(const ComparisonEntry& entry);
 
+/// The same of any text; `name` is what the message names.
+nlohmann::ordered_json parse_object(const std::string& text, const std::string& name);
+
 }
