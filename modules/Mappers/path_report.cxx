@@ -27,14 +27,14 @@ bool shines(const glm::dvec3& light)
 
 }
 
-EffectPlan plan_of_paths(const Scene& scene, int most_scatterings)
+EffectPlan plan_of_paths(const Scene& scene, int most_scatterings, bool environment)
 {
   const auto any = [&scene](auto condition)
   { return std::any_of(scene.volumes.begin(), scene.volumes.end(), condition); };
   const bool fog = has_fog(scene);
   const bool lit = any([](const Volume& v) { return v.medium.lit; }) || (fog && shines(scene.fog.albedo));
   const bool lamps = !scene.lights.empty();
-  const bool sky = shines(scene.sky.radiance) || shines(scene.sky.ground);
+  const bool sky = shines(scene.sky.radiance) || shines(scene.sky.ground) || environment;
   const bool emits = any(
     [](const Volume& v)
     {
@@ -72,7 +72,9 @@ EffectPlan plan_of_paths(const Scene& scene, int most_scatterings)
   settle(Effect::Shadows, lit && lamps,
     lit && lamps ? "the transmittance toward a light is estimated at each scattering" : "no light shines on a lit medium");
   settle(Effect::Ambient, lit && sky,
-    lit && sky ? "paths that leave the matter see sky and ground" : "there is no sky, or no lit medium");
+    !(lit && sky) ? "there is no sky, or no lit medium"
+      : environment ? "paths that leave the matter see sky and ground, and the environment map, which is also looked for at each scattering"
+                    : "paths that leave the matter see sky and ground");
   settle(Effect::Octaves, false, scatterings + ": nothing is left to approximate");
   const bool shaded = any([](const Volume& v) { return v.shading.enabled; });
   settle(Effect::GradientShading, false,

@@ -11,8 +11,9 @@
 namespace brume
 {
 
-/// Which effects paths of up to `most_scatterings` (0: any number) simulate, and why.
-EffectPlan plan_of_paths(const Scene& scene, int most_scatterings);
+/// Which effects paths of up to `most_scatterings` (0: any number) simulate, and why. `environment`: with
+/// an environment map beside the scene's lights.
+EffectPlan plan_of_paths(const Scene& scene, int most_scatterings, bool environment);
 
 /// The plan's effects, as statistics list them.
 nlohmann::json effects_of(const EffectPlan& plan);

@@ -23,6 +23,9 @@
  * within it) or at the TimeBudget, whichever comes first. The same Seed gives the same picture, bit for
  * bit, for every number of threads.
  *
+ * An environment map lights media as it is, not by directional lights in its place
+ * (vtkBrumeSky::NumberOfEnvironmentLights).
+ *
  * What is not simulated, and told in the statistics: octaves (all scatterings are followed), gradient
  * shading (the phase function holds), silver lining and powder (no physics). A vtkBrumeFog scatters
  * as often as the volumes do, and they throw shadows on it; one without falloff is an error with light
@@ -53,6 +56,32 @@ public:
   vtkSetClampMacro(SamplesPerPixel, int, 1, VTK_INT_MAX);
   vtkGetMacro(SamplesPerPixel, int);
   ///@}
+
+  ///@{
+  /**
+   * For windows: paths through each pixel that one render adds to those of the renders before it, up
+   * to SamplesPerPixel. While nothing changes, neither the camera nor the scene nor the picture's
+   * size, each Render() of the window brings a picture with less noise, after n renders bit for bit
+   * the one of n times as many samples; the first one after a change begins anew. Tolerance and
+   * TimeBudget end a render, too, and later ones go on. Default 0: off, each render makes the
+   * whole picture by itself. Range 0 to VTK_INT_MAX; values outside are clamped.
+   *
+   * @code
+   * mapper->SetSamplesPerRender(4);
+   * do
+   * {
+   *   window->Render();
+   * } while (mapper->GetRenderedSamplesPerPixel() < mapper->GetSamplesPerPixel());
+   * @endcode
+   */
+  vtkSetClampMacro(SamplesPerRender, int, 0, VTK_INT_MAX);
+  vtkGetMacro(SamplesPerRender, int);
+  ///@}
+
+  /**
+   * Paths through each pixel of the last picture; 0 before one.
+   */
+  vtkGetMacro(RenderedSamplesPerPixel, int);
 
   ///@{
   /**
@@ -88,6 +117,8 @@ protected:
   void AppendIgnoredSettings(vtkVolume* volume, std::vector<std::string>& names) override;
 
   int SamplesPerPixel = 64;
+  int SamplesPerRender = 0;
+  int RenderedSamplesPerPixel = 0;
   int MaximumScatterings = 0;
   double TimeBudget = 0.0;
   unsigned int Seed = 1;

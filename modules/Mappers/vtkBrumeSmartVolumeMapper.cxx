@@ -11,6 +11,7 @@
 #include "Transport/timed_march.h"
 
 #include "vtkBrumeEffectPlan.h"
+#include "vtkBrumeSky.h"
 #include "vtkObjectFactory.h"
 
 #include <nlohmann/json.hpp>
@@ -53,6 +54,8 @@ struct vtkBrumeSmartVolumeMapper::Internals
   brume::Marcher Marcher;
   brume::MarchChoices Choices;
   brume::PathTracer Tracer;
+  brume::Scene Traced; ///< as paths see it: lit by the environment itself
+  std::shared_ptr<const brume::PlacedEnvironment> Environment;
   brume::Scene Chosen; ///< the scene with the octaves that were chosen
 };
 
@@ -170,7 +173,8 @@ void vtkBrumeSmartVolumeMapper::Trace(Picture& picture)
   brume::Film* film = &picture.Film;
   brume::Film small;
   brume::Scene smaller;
-  const brume::Scene* scene = &picture.Scene;
+  settings.environment = this->Internal->Environment;
+  const brume::Scene* scene = &this->Internal->Traced;
   const double before = picture.Passed();
   if (picture.Budget > 0.0)
   {
@@ -197,7 +201,8 @@ void vtkBrumeSmartVolumeMapper::Trace(Picture& picture)
   {
     picture.Film = brume::scaled(small, picture.Film.width, picture.Film.height);
   }
-  const brume::EffectPlan plan = brume::plan_of_paths(picture.Scene, 0);
+  const brume::EffectPlan plan = brume::plan_of_paths(
+    this->Internal->Traced, 0, settings.environment != nullptr);
   this->GetEffectPlan()->SetPlan(plan);
   picture.Statistics = brume::statistics_of(picture.Scene, settings, paths, plan, picture.Window);
   picture.Statistics["tolerance_met"] =
@@ -231,6 +236,14 @@ bool vtkBrumeSmartVolumeMapper::RenderScene(brume::Scene& scene, brume::Film& fi
   wish.height = film.height;
   wish.threads = this->NumberOfThreads;
   wish.seed = this->Seed;
+  this->Internal->Traced = scene;
+  this->Internal->Environment = nullptr;
+  if (vtkBrumeSky* sky = this->GetSkyInUse())
+  {
+    this->Internal->Environment = sky->TakeEnvironment(this->Internal->Traced.lights);
+  }
+  wish.traced = &this->Internal->Traced;
+  wish.environment = this->Internal->Environment;
   wish.forced = !this->GetEffectPlan()->GetForces().empty();
   picture.Choice = brume::choose_method(this->Internal->Marcher, scene, wish, tell);
   if (picture.Choice.aborted)

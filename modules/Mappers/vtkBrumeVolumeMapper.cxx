@@ -256,6 +256,7 @@ brume::Scene* vtkBrumeVolumeMapper::UpdateScene(vtkVolume* volume, const brume::
   {
     this->GetInputAlgorithm()->Update();
   }
+  this->SkyInUse = this->Internal->Medium ? this->Internal->Sky.Get() : nullptr;
   std::string wrong;
   try
   {
@@ -308,6 +309,10 @@ brume::Scene* vtkBrumeVolumeMapper::UpdateScene(vtkVolume* first,
     vtkErrorMacro(<< wrong);
     return nullptr;
   }
+  if (fog && scene->blend_mode == brume::BlendMode::Composite && fog->GetSky())
+  {
+    this->SkyInUse = fog->GetSky();
+  }
   return scene;
 }
 
@@ -328,6 +333,7 @@ brume::Scene* vtkBrumeVolumeMapper::JoinScenes(const brume::Scene& scene,
       {
         together.sky = other->sky;
         together.lights = other->lights; // the environment's among them
+        this->SkyInUse = mapper->Internal->Sky;
         sky = true;
       }
       together.volumes.insert(together.volumes.end(), other->volumes.begin(), other->volumes.end());

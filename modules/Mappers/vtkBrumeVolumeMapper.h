@@ -342,6 +342,9 @@ protected:
   /// by the last render; 0 before. Without a volume: of any.
   double GetSecondsOfPicture(vtkRenderer* renderer, vtkVolume* volume) const;
 
+  /// The sky whose lights the scene that is being made has; null: none.
+  vtkBrumeSky* GetSkyInUse() const { return this->SkyInUse; }
+
   /// Seconds that bringing the last scene up to date took.
   double SecondsScene = 0.0;
   /// Seconds of the last render alone; set by RenderScene.
@@ -387,6 +390,7 @@ private:
   static bool RenderWithFog(vtkRenderer* renderer, vtkBrumeFog* fog);
   friend class vtkBrumeFog;
 
+  vtkBrumeSky* SkyInUse = nullptr; ///< kept by who has it while a scene is made and drawn
   struct Internals;
   std::unique_ptr<Internals> Internal;
 };

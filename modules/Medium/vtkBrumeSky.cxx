@@ -14,6 +14,7 @@
 #include <glm/geometric.hpp>
 
 #include <array>
+#include <utility>
 
 vtkStandardNewMacro(vtkBrumeSky);
 
@@ -21,6 +22,7 @@ struct vtkBrumeSky::Internals
 {
   vtkSmartPointer<vtkImageData> Map;
   std::vector<brume::Light> Lights; ///< of the map
+  std::shared_ptr<const brume::PlacedEnvironment> Placed; ///< the map; null: none that is usable
   std::string Wrong;                ///< with the map
   vtkMTimeType LightsTime = 0;      ///< when they were made; 0: never
 };
@@ -119,6 +121,7 @@ std::string vtkBrumeSky::AppendEnvironmentLights(std::vector<brume::Light>& ligh
   {
     self.Lights.clear();
     self.Wrong.clear();
+    self.Placed = nullptr;
     self.LightsTime = time;
     int dims[3];
     self.Map->GetDimensions(dims);
@@ -132,7 +135,8 @@ std::string vtkBrumeSky::AppendEnvironmentLights(std::vector<brume::Light>& ligh
     }
     else
     {
-      brume::EnvironmentMap map;
+      auto placed = std::make_shared<brume::PlacedEnvironment>();
+      brume::EnvironmentMap& map = placed->map;
       map.width = dims[0];
       map.height = dims[1];
       map.rgb.resize(3 * static_cast<std::size_t>(count));
@@ -144,13 +148,26 @@ std::string vtkBrumeSky::AppendEnvironmentLights(std::vector<brume::Light>& ligh
         }
       }
       const glm::dvec3 up(this->Up[0], this->Up[1], this->Up[2]);
-      self.Lights = brume::environment_lights(map,
-        this->NumberOfEnvironmentLights,
-        brume::world_from_environment(up, this->EnvironmentRotation));
+      placed->world_from_map = brume::world_from_environment(up, this->EnvironmentRotation);
+      self.Lights = brume::environment_lights(
+        map, this->NumberOfEnvironmentLights, placed->world_from_map);
+      self.Placed = std::move(placed);
     }
   }
   lights.insert(lights.end(), self.Lights.begin(), self.Lights.end());
   return self.Wrong;
+}
+
+std::shared_ptr<const brume::PlacedEnvironment> vtkBrumeSky::TakeEnvironment(
+  std::vector<brume::Light>& lights)
+{
+  const Internals& self = *this->Internal;
+  if (!self.Map || !self.Placed || lights.size() < self.Lights.size())
+  {
+    return nullptr;
+  }
+  lights.erase(lights.end() - static_cast<std::ptrdiff_t>(self.Lights.size()), lights.end());
+  return self.Placed;
 }
 
 void vtkBrumeSky::PrintSelf(ostream& os, vtkIndent indent)

@@ -4,7 +4,7 @@
  *
  * Lights the media that mappers draw, beside the renderer's lights. Sky and ground are two even
  * halves of the sphere, dimmed by the matter above and below a place. An environment map becomes
- * directional lights, which cast shadows.
+ * directional lights, which cast shadows; vtkBrumePathTraceMapper takes it as it is.
  *
  * @code
  * vtkNew<vtkBrumeSky> sky;
@@ -30,6 +30,7 @@ class vtkImageData;
 namespace brume
 {
 struct Light;
+struct PlacedEnvironment;
 struct Sky;
 }
 
@@ -114,6 +115,13 @@ public:
    * Returns an empty string, or what is wrong with the map and what to do.
    */
   std::string AppendEnvironmentLights(std::vector<brume::Light>& lights);
+
+  /**
+   * The environment map itself, for integrators that need no lights in its place: the lights that
+   * AppendEnvironmentLights added last are taken off the list again. Null: there is none.
+   */
+  std::shared_ptr<const brume::PlacedEnvironment> TakeEnvironment(
+    std::vector<brume::Light>& lights);
 #endif
 
   /**

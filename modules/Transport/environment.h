@@ -24,6 +24,13 @@ struct EnvironmentMap
   std::vector<float> rgb;
 };
 
+/// A map and its frame in the world, a rotation.
+struct PlacedEnvironment
+{
+  EnvironmentMap map;
+  glm::dmat3 world_from_map{ 1.0 };
+};
+
 /// The direction from the scene toward a place of the picture, in the map's frame: a unit vector.
 /// x from 0 at the left edge to `width`, y from 0 at the lower edge to `height`; a pixel's middle
 /// is at its number + ½.

@@ -13,6 +13,7 @@
 #include <limits>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace brume
 {
@@ -171,8 +172,15 @@ Scene with_octaves(const Scene& scene, int octaves)
   return other;
 }
 
-MethodProbe::MethodProbe(const Scene& scene, int width, int height, std::uint32_t seed, int threads)
+MethodProbe::MethodProbe(const Scene& scene,
+  const Scene& traced,
+  std::shared_ptr<const PlacedEnvironment> environment,
+  int width,
+  int height,
+  std::uint32_t seed,
+  int threads)
   : TheScene(scene)
+  , Environment(std::move(environment))
   , Pixels(static_cast<std::size_t>(width) * height)
   , Seed(seed)
   , Threads(threads)
@@ -184,6 +192,7 @@ MethodProbe::MethodProbe(const Scene& scene, int width, int height, std::uint32_
   { return std::clamp(static_cast<int>(std::lround(size * ratio)), 1, size); };
   this->Truth = Film(part(width), part(height));
   this->Seen = for_size(scene, width, height, this->Truth.width, this->Truth.height);
+  this->Traced = for_size(traced, width, height, this->Truth.width, this->Truth.height);
 }
 
 MethodProbe::~MethodProbe() = default;
@@ -196,16 +205,17 @@ bool MethodProbe::trace(int samples, double seconds, const Progress& progress)
   settings.resume = this->Samples > 0;
   settings.seed = this->Seed + 0x5eed; // other paths than the picture's
   settings.threads = this->Threads;
-  const PathStatistics statistics = this->Tracer.render(this->Seen, settings, this->Truth, progress);
+  settings.environment = this->Environment;
+  const PathStatistics statistics = this->Tracer.render(this->Traced, settings, this->Truth, progress);
   this->Samples = statistics.samples_per_pixel;
-  this->Traced += statistics.paths;
+  this->Followed += statistics.paths;
   this->Seconds += statistics.seconds;
   return statistics.completed;
 }
 
 double MethodProbe::seconds_of_path() const
 {
-  return this->Traced > 0 ? this->Seconds / static_cast<double>(this->Traced) : 0.0;
+  return this->Followed > 0 ? this->Seconds / static_cast<double>(this->Followed) : 0.0;
 }
 
 double MethodProbe::paths_for(double tolerance, double beyond) const
@@ -299,7 +309,8 @@ public:
     , TheScene(scene)
     , Wish(wish)
     , TheProgress(progress)
-    , Probe(scene, wish.width, wish.height, wish.seed, wish.threads)
+    , Probe(scene, wish.traced ? *wish.traced : scene, wish.environment, wish.width, wish.height, wish.seed,
+        wish.threads)
     , Pixels(static_cast<std::size_t>(wish.width) * wish.height)
   {
     this->Choice.compared = true;

@@ -16,6 +16,8 @@
 namespace brume
 {
 
+struct PlacedEnvironment;
+
 enum class Method
 {
   March, ///< the ray march: single scattering, or octaves in place of more
@@ -64,8 +66,15 @@ public:
   /// One ray for so many pixels; 64 rays at the least, 1024 at the most.
   static constexpr double pixels_of_ray = 16.0;
 
-  /// Keeps a reference to the scene, a picture of width × height.
-  MethodProbe(const Scene& scene, int width, int height, std::uint32_t seed, int threads);
+  /// Keeps a reference to the scene, a picture of width × height. Paths are traced through `traced`, with
+  /// `environment`, where that is the same scene lit by the environment itself.
+  MethodProbe(const Scene& scene,
+    const Scene& traced,
+    std::shared_ptr<const PlacedEnvironment> environment,
+    int width,
+    int height,
+    std::uint32_t seed,
+    int threads);
   ~MethodProbe();
   MethodProbe(const MethodProbe&) = delete;
   MethodProbe& operator=(const MethodProbe&) = delete;
@@ -74,7 +83,7 @@ public:
   /// when aborted.
   bool trace(int samples, double seconds, const Progress& progress);
 
-  std::uint64_t paths() const { return this->Traced; }
+  std::uint64_t paths() const { return this->Followed; }
   int samples() const { return this->Samples; }
   std::size_t rays() const { return this->Truth.size(); }
   double seconds() const { return this->Seconds; }
@@ -95,6 +104,8 @@ public:
 private:
   const Scene& TheScene;
   Scene Seen; ///< with the surfaces of the probe's rays
+  Scene Traced;
+  std::shared_ptr<const PlacedEnvironment> Environment;
   std::size_t Pixels;
   std::uint32_t Seed;
   int Threads;
@@ -102,7 +113,7 @@ private:
   Film Truth;
   std::map<int, Film> Marched; ///< by octaves
   int Samples = 0;
-  std::uint64_t Traced = 0;
+  std::uint64_t Followed = 0;
   double Seconds = 0.0;
 };
 
@@ -146,6 +157,10 @@ struct MethodWish
   int height = 1;
   int threads = 0;
   std::uint32_t seed = 1;
+  /// What paths are traced through, with `environment`: the scene, but lit by its environment itself rather
+  /// than by lights in its place. Null: the scene.
+  const Scene* traced = nullptr;
+  std::shared_ptr<const PlacedEnvironment> environment;
   bool forced = false; ///< effects are on or off by the caller's will
 };
 

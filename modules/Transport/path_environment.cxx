@@ -3,7 +3,6 @@
 #include "Transport/phase_sampler.h"
 
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -45,12 +44,10 @@ double edge_sine(int row, int height)
 
 }
 
-PathEnvironment::PathEnvironment(
-  const Sky& sky, std::shared_ptr<const EnvironmentMap> map, const glm::dmat3& world_from_map)
+PathEnvironment::PathEnvironment(const Sky& sky, std::shared_ptr<const PlacedEnvironment> map)
   : Halves(sky)
-  , Map(std::move(map))
-  , WorldFromMap(world_from_map)
-  , MapFromWorld(glm::transpose(world_from_map))
+  , Placed(std::move(map))
+  , Map(this->Placed ? &this->Placed->map : nullptr)
   , SkyPower(2.0 * pi * mean(sky.radiance))
   , GroundPower(2.0 * pi * mean(sky.ground))
 {
@@ -99,7 +96,7 @@ glm::dvec3 PathEnvironment::map_radiance(int x, int y) const
 // The inverse of environment_direction().
 void PathEnvironment::find_pixel(const glm::dvec3& toward, int& x, int& y) const
 {
-  const glm::dvec3 d = this->MapFromWorld * toward;
+  const glm::dvec3 d = toward * this->Placed->world_from_map;
   const double across = std::atan2(d.x, d.y) / (2.0 * pi) + 0.5;
   const double up = std::atan2(d.z, std::hypot(d.x, d.y)) / pi + 0.5;
   x = std::clamp(static_cast<int>(across * this->Map->width), 0, this->Map->width - 1);
@@ -147,7 +144,7 @@ glm::dvec3 PathEnvironment::sample(RandomStream& random) const
     std::clamp(lower + random.uniform() * (edge_sine(y + 1, height) - lower), -1.0, 1.0);
   const double longitude = 2.0 * pi * ((column - begin + across) / width - 0.5);
   const double cosine = std::sqrt((1.0 - sine) * (1.0 + sine));
-  return this->WorldFromMap *
+  return this->Placed->world_from_map *
          glm::dvec3(cosine * std::sin(longitude), cosine * std::cos(longitude), sine);
 }
 

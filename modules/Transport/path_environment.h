@@ -21,9 +21,7 @@ class PathEnvironment
 public:
   /// `map` may be null. Throws std::invalid_argument for one without pixels or with another number of
   /// values.
-  PathEnvironment(const Sky& sky,
-    std::shared_ptr<const EnvironmentMap> map,
-    const glm::dmat3& world_from_map);
+  PathEnvironment(const Sky& sky, std::shared_ptr<const PlacedEnvironment> map);
 
   /// Whether there is any light.
   bool shines() const { return this->Power > 0.0; }
@@ -43,9 +41,8 @@ private:
   void find_pixel(const glm::dvec3& toward, int& x, int& y) const;
 
   Sky Halves;
-  std::shared_ptr<const EnvironmentMap> Map;
-  glm::dmat3 WorldFromMap;
-  glm::dmat3 MapFromWorld;
+  std::shared_ptr<const PlacedEnvironment> Placed;
+  const EnvironmentMap* Map = nullptr; ///< of it
   std::vector<double> RowUpTo;    ///< sums of the rows' powers, from the bottom
   std::vector<double> ColumnUpTo; ///< within each row, sums of the pixels' mean radiances
   double SkyPower = 0.0;          ///< mean radiance times solid angle

@@ -55,7 +55,7 @@ public:
     Begin = Along = Inverse = Heading = Onward = Sum = Kept = Gain = { zero, zero, zero };
     Scale = At = End = Left = OnwardLeft = Passes = Depth = StopDepth = Roulette = zero;
     BrickX = BrickY = BrickZ = Scatterings = hn::Zero(int_tag);
-    Pixel = Sample = Block = hn::Zero(word_tag);
+    Pixel = Sample = Block = Choice = hn::Zero(word_tag);
     for (std::size_t& path : Path)
     {
       path = Paths;
@@ -322,14 +322,16 @@ private:
 
   void collide(Mask collided)
   {
-    const Words words = draw(collided);
-    const Real left = free_path(words.word[0]);
+    // The voxels come from far: they are asked for before the next random numbers are drawn.
     const Mask read = hn::AndNot(Faded, collided);
+    const Vec3<Real> place = here();
+    const Real extinction = density(read, place, uniform(Choice));
     const Int index = brick_index();
     const Real rate = hn::GatherIndex(float_tag, Scene.bricks.data(), index);
     const Real least = hn::GatherIndex(float_tag, Scene.bricks.data() + 1, index);
-    const Vec3<Real> place = here();
-    const Real extinction = density(read, place, uniform(words.word[1]));
+    const Words words = draw(collided);
+    const Real left = free_path(words.word[0]);
+    Choice = hn::IfThenElse(hn::RebindMask(word_tag, collided), words.word[1], Choice);
     Counts.collisions += count(read);
 
     // Shadow rays: let through in part, and given up by chance when that is little.
@@ -550,6 +552,7 @@ private:
     Shadow = hn::AndNot(fresh, Shadow);
     Alive = hn::Or(Alive, fresh);
     const Words words = draw(fresh);
+    Choice = hn::IfThenElse(fresh_word, words.word[1], Choice);
     aim(fresh, { load(heading[0]), load(heading[1]), load(heading[2]) }, free_path(words.word[0]));
     End = select(fresh, hn::Min(End, hn::Load(float_tag, length)), End);
   }
@@ -594,6 +597,7 @@ private:
   Vec3<Real> Kept;
   Int Scatterings;
   Word Pixel, Sample, Block;
+  Word Choice; ///< which voxel stands for the next place
 };
 
 void trace_paths_target(const PathPacketScene& scene,

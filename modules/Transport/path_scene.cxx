@@ -88,10 +88,9 @@ private:
 
 PathScene::PathScene(const Scene& scene,
   int most_scatterings,
-  std::shared_ptr<const EnvironmentMap> map,
-  const glm::dmat3& world_from_map)
+  std::shared_ptr<const PlacedEnvironment> environment)
   : TheScene(scene)
-  , Around(scene.sky, std::move(map), world_from_map)
+  , Around(scene.sky, std::move(environment))
   , MostScatterings(most_scatterings)
 {
   scene.validate();

@@ -12,7 +12,6 @@
 #include "Transport/reference_medium.h"
 #include "Transport/scene.h"
 
-#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
 #include <cstddef>
@@ -47,13 +46,12 @@ struct Sight
 class PathScene
 {
 public:
-  /// Keeps a reference to the scene. `map`, which may be null, is light from all around beside the
-  /// scene's sky. Throws std::invalid_argument for what cannot be traced: another blend mode than
+  /// Keeps a reference to the scene. `environment`, which may be null, is light from all around
+  /// beside the scene's sky. Throws std::invalid_argument for what cannot be traced: another blend mode than
   /// composite, and what PathFog and PathEnvironment refuse.
   PathScene(const Scene& scene,
     int most_scatterings,
-    std::shared_ptr<const EnvironmentMap> map = nullptr,
-    const glm::dmat3& world_from_map = glm::dmat3(1.0));
+    std::shared_ptr<const PlacedEnvironment> environment = nullptr);
 
   /// An estimate of the radiance that arrives at `from` from the direction it looks along; light from
   /// behind that was not scattered does not count. Unbiased: its expectation is the solution of the

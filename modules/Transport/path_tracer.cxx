@@ -224,8 +224,7 @@ PathStatistics PathTracer::render(const Scene& scene,
   Kept& kept = *this->Internal;
   PathStatistics statistics;
   const auto begin = Clock::now();
-  const PathScene paths(
-    scene, settings.most_scatterings, settings.environment, settings.world_from_environment);
+  const PathScene paths(scene, settings.most_scatterings, settings.environment);
   statistics.threads = settings.threads > 0 ? settings.threads : tbb::info::default_concurrency();
   statistics.non_finite_voxels = paths.non_finite_voxels();
   if (!settings.resume || !kept.fits(film))

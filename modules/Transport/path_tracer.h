@@ -6,8 +6,6 @@
 #include "Transport/marcher.h"
 #include "Transport/scene.h"
 
-#include <glm/mat3x3.hpp>
-
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -16,7 +14,7 @@
 namespace brume
 {
 
-struct EnvironmentMap;
+struct PlacedEnvironment;
 
 struct PathSettings
 {
@@ -50,8 +48,7 @@ struct PathSettings
   double step = 0.0;
   /// Light from all around (environment.h), added to the scene's lights and sky: itself, not as lights
   /// in its place. Null: none.
-  std::shared_ptr<const EnvironmentMap> environment;
-  glm::dmat3 world_from_environment{ 1.0 };
+  std::shared_ptr<const PlacedEnvironment> environment;
   /// Goes on where the last render() of the same scene stopped, with its paths counted in: for
   /// pictures that refine. The caller vouches that nothing else has changed.
   bool resume = false;
