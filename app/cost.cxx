@@ -8,13 +8,16 @@
 #include "option_checks.h"
 #include "output_folder.h"
 #include "presets.h"
+#include "private_display.h"
 #include "scene_description.h"
 #include "scene_options.h"
 #include "study_clock.h"
 #include "volume_scene.h"
 
 #include "Analysis/study.h"
+#include "Analysis/study_chart.h"
 #include "Analysis/study_json.h"
+#include "Analysis/study_report.h"
 #include "Analysis/study_words.h"
 
 #include "atomic_file.h"
@@ -28,6 +31,7 @@
 #include "vtkImageData.h"
 #include "vtkLightCollection.h"
 #include "vtkPolyData.h"
+#include "vtkRenderingContext2DModule.h" // so that charts have their OpenGL classes
 #include "vtkVolume.h"
 
 #include <CLI/CLI.hpp>
@@ -37,6 +41,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 namespace brume::app
 {
@@ -133,13 +138,27 @@ void run(const Options& options)
   InterruptionWatch::check("cost");
   study.machine = this_machine(of_cost.march().threads(), of_cost.march().simd());
   study.seconds = clock.elapsed();
+  std::optional<Bitmap> chart;
+  if (of_cost.display().available())
+  {
+    chart = study_chart(study);
+    const std::vector<unsigned char> png = encode_png(*chart);
+    write_atomically(folder.file("cost.png"), png.data(), png.size());
+  }
+  else
+  {
+    std::cerr << "brume: " << folder.file("cost.png") << ": it is left out, as "
+              << of_cost.display().reason() << '\n';
+  }
   write_atomically(folder.file("cost.csv"), to_csv(study));
   write_atomically(folder.file("cost.json"), to_json(study));
+  write_atomically(folder.file("report.html"), to_html(study, chart ? &*chart : nullptr));
   folder.keep();
   for (const std::string& words : study_words(study))
   {
     std::cout << words << '\n';
   }
+  std::cout << "report: " << folder.file("report.html") << '\n';
 }
 
 }

@@ -11,7 +11,7 @@ find_package(VTK 9.1 REQUIRED COMPONENTS
   CommonCore CommonDataModel CommonExecutionModel CommonMath CommonMisc CommonTransforms
   CommonSystem FiltersCore IOCore IOGeometry IOImage IOLegacy IOPLY IOXML ImagingCore
   RenderingCore RenderingVolume RenderingOpenGL2 RenderingVolumeOpenGL2 RenderingFreeType
-  InteractionStyle FiltersSources)
+  InteractionStyle FiltersSources ChartsCore RenderingContext2D RenderingContextOpenGL2)
 
 find_package(DICOM 0.8 REQUIRED) # vtk-dicom; it gives VTK::DICOM
 # The decoders of compressed DICOM, which vtk-dicom links too. GDCM's own package file asks for its tools.

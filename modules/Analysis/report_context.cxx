@@ -2,6 +2,7 @@
 
 #include "figures.h"
 #include "headline.h"
+#include "report_parts.h"
 #include "statistics.h"
 
 #include <algorithm>
@@ -20,19 +21,6 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-/// The sentence with each figure tied to its unit, so that no line breaks between them.
-std::string tied(std::string sentence)
-{
-  for (const char* unit : { " s,", " s)", " s.", " s ", " %", " times" })
-  {
-    for (std::size_t at = 0; (at = sentence.find(unit, at)) != std::string::npos; ++at)
-    {
-      sentence.replace(at, 1, "\u00A0");
-    }
-  }
-  return sentence;
-}
-
 std::vector<const ComparisonEntry*> drawn_entries(const Comparison& comparison)
 {
   std::vector<const ComparisonEntry*> drawn;
@@ -44,30 +32,6 @@ std::vector<const ComparisonEntry*> drawn_entries(const Comparison& comparison)
     }
   }
   return drawn;
-}
-
-/// Appends a named value to a description list, if it has one.
-void describe(Json& list, const char* name, const std::string& value)
-{
-  if (!value.empty())
-  {
-    list.push_back({ { "name", name }, { "value", value } });
-  }
-}
-
-std::string triple(const std::array<double, 3>& values)
-{
-  return figure(values[0], 4) + ", " + figure(values[1], 4) + ", " + figure(values[2], 4);
-}
-
-std::string joined(const std::vector<std::string>& parts, const std::string& separator)
-{
-  std::string text;
-  for (const std::string& part : parts)
-  {
-    text += part.empty() ? "" : (text.empty() ? "" : separator) + part;
-  }
-  return text;
 }
 
 /// One bar; `largest` is the longest finite one of its chart. What is infinite fills the chart.
@@ -273,46 +237,6 @@ void add_effects(Json& context, const Comparison& comparison)
   context["has_effects"] = !context["effect_groups"].empty();
 }
 
-void add_scene(Json& context, const SceneDescription& scene)
-{
-  const std::string voxels = voxels_text(scene.dimensions.data(), scene.spacing.data(), scene.unit);
-  const std::string step = step_text(scene.step, scene.step_voxels, scene.unit);
-  const std::string resolution = scene.width > 0
-    ? std::to_string(scene.width) + " × " + std::to_string(scene.height) + " pixels"
-    : "";
-  context["input"] = scene.input;
-  context["scene_line"] = joined({ voxels, scene.preset.empty() ? "" : "preset " + scene.preset,
-                                   resolution, step.empty() ? "" : "step " + step },
-    " · ");
-  context["matched"] = Json::array();
-  for (const MatchedSetting& setting : scene.matched)
-  {
-    context["matched"].push_back({ { "name", setting.name }, { "value", setting.value },
-      { "applies_to", setting.applies_to } });
-  }
-  context["has_matched"] = !scene.matched.empty();
-
-  const CameraDescription& camera = scene.camera;
-  Json list = Json::array();
-  describe(list, "Data", voxels);
-  describe(list, "Transfer functions", scene.preset);
-  describe(list, "Resolution", resolution);
-  describe(list, "Sample distance", step.empty() ? "chosen by each mapper" : step);
-  describe(list, "Opacity unit distance",
-    scene.opacity_unit_distance > 0 ? step_text(scene.opacity_unit_distance, 0, scene.unit) : "");
-  describe(list, "Interpolation", scene.interpolation);
-  describe(list, "Shading", scene.shading ? "on" : "off");
-  describe(list, "Lights", scene.lights.empty() ? "none" : joined(scene.lights, "; "));
-  describe(list, "Background, linear RGB", triple(scene.background));
-  describe(list, "Camera position", triple(camera.position));
-  describe(list, "Camera focal point", triple(camera.focal_point));
-  describe(list, "Camera view up", triple(camera.view_up));
-  describe(list, "Projection",
-    camera.parallel ? "parallel, scale " + figure(camera.parallel_scale)
-                    : "perspective, view angle " + figure(camera.view_angle) + "°");
-  context["scene"] = list;
-}
-
 void add_truth(Json& context, const Truth& truth)
 {
   context["truth_method"] =
@@ -327,18 +251,6 @@ void add_truth(Json& context, const Truth& truth)
     describe(list, "Time", seconds_text(truth.seconds));
   }
   context["truth"] = list;
-}
-
-void add_machine(Json& context, const Machine& machine)
-{
-  Json list = Json::array();
-  describe(list, "Processor", machine.cpu);
-  describe(list, "Threads", machine.threads > 0 ? std::to_string(machine.threads) : "");
-  describe(list, "Instruction set", machine.simd);
-  describe(list, "System", machine.os);
-  describe(list, "Brume", machine.brume_version);
-  describe(list, "VTK", machine.vtk_version);
-  context["machine"] = list;
 }
 
 }

@@ -3,8 +3,7 @@
 
 #include "difference_picture.h"
 #include "figures.h"
-
-#include <vtkBase64Utilities.h>
+#include "report_parts.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -16,22 +15,6 @@ namespace
 {
 
 using Json = nlohmann::ordered_json;
-
-std::string data_uri(const Bitmap& bitmap)
-{
-  const std::vector<unsigned char> png = encode_png(bitmap);
-  std::string text(4 * ((png.size() + 2) / 3) + 4, '\0');
-  const unsigned long length = vtkBase64Utilities::Encode(
-    png.data(), static_cast<unsigned long>(png.size()), reinterpret_cast<unsigned char*>(&text[0]));
-  text.resize(length);
-  return "data:image/png;base64," + text;
-}
-
-Json picture_json(const std::string& id, const std::string& title, const Bitmap& bitmap)
-{
-  return { { "id", id }, { "title", title }, { "class_name", nullptr },
-    { "source", data_uri(bitmap) }, { "width", bitmap.width }, { "height", bitmap.height } };
-}
 
 /// An id within the page, made of nothing that HTML or a link would mind.
 std::string id_of(const ComparisonEntry& entry, std::size_t index)
@@ -67,31 +50,6 @@ Json difference_json(const std::string& id, const std::string& title,
       (difference.non_finite_pixels == 1 ? " pixel" : " pixels") + " not finite";
   }
   return json;
-}
-
-std::string rgb_text(const std::array<unsigned char, 3>& colour)
-{
-  return "rgb(" + std::to_string(colour[0]) + "," + std::to_string(colour[1]) + "," +
-    std::to_string(colour[2]) + ")";
-}
-
-void add_legend(Json& context, double gain)
-{
-  context["gain"] = figure(gain, 10);
-  context["scale_end"] = figure(255.0 / gain);
-  std::string ramp;
-  constexpr int stops = 24;
-  for (int i = 0; i <= stops; ++i)
-  {
-    ramp += (i ? "," : "") +
-      rgb_text(legend_colour(DifferenceKind::Absolute, static_cast<double>(i) / stops));
-  }
-  context["ramp"] = ramp;
-  context["ticks"] = Json::array();
-  for (const LegendTick& tick : legend_ticks(DifferenceKind::Absolute, gain))
-  {
-    context["ticks"].push_back({ { "at", figure(100.0 * tick.position) }, { "text", tick.text } });
-  }
 }
 
 void check_size(const Picture& picture, const Picture& other, const std::string& title)
@@ -173,15 +131,8 @@ void add_pictures(Json& context, const Comparison& comparison)
   context["differences"] = std::move(differences);
   context["own_gains"] = std::move(own_gains);
   context["non_finite"] = non_finite > 0;
-  const std::string exposed = comparison.exposure == 0.0
-    ? ""
-    : "Brightened by " + figure(comparison.exposure) + " stops. ";
-  context["display_note"] = exposed +
-    (comparison.display_curve == DisplayCurve::Srgb
-        ? "Shown through the sRGB curve and cut to what a display holds; measured before both."
-        : "Shown as a VTK window shows the same numbers (a byte is 255 times the value, with no display "
-          "curve) and cut to what a display holds; measured before that.");
-  add_legend(context, gain);
+  context["display_note"] = display_note(comparison.display_curve, comparison.exposure);
+  add_legend(context, DifferenceKind::Absolute, gain);
 }
 
 }

@@ -87,7 +87,8 @@ std::vector<std::string> front_words(const Study& study)
   {
     const StudyPoint& first = *front.front();
     words.push_back("No more time halves the error here: from " + point_name(study, first) + " to " +
-      point_name(study, last) + " it falls " + figure(first.errors.rms / last.errors.rms, 2) + " times for " +
+      point_name(study, last) + " it falls to " +
+      percent(last.errors.rms / first.errors.rms) + " for " +
       figure(last.timing.median / first.timing.median, 2) + " times the time.");
     return words;
   }
@@ -125,7 +126,7 @@ std::string depth_words(const std::vector<ClassError>& errors, const ErrorClasse
   }
   if (wrong.empty())
   {
-    return right.empty() ? "" : "in the mean within " + percent(least_bias) + " in " + right;
+    return right.empty() ? "" : "in the mean within " + percent(least_bias) + " at all depths";
   }
   return wrong + (right.empty() ? "" : ", within " + percent(least_bias) + " in " + right);
 }
@@ -192,7 +193,15 @@ std::string point_words(const Study& study, const StudyPoint& point)
   return words + ".";
 }
 
-/// Of each knob the setting with the largest error and the best one that is not the measure of the others.
+/// What settings of a knob are compared within: "volume" of "volume 4 voxels"; empty for numbers.
+std::string kind_of(const StudyPoint& point)
+{
+  const std::string first = point.setting.substr(0, point.setting.find_first_of(" ,"));
+  return first.find_first_of("0123456789") == std::string::npos ? first : "";
+}
+
+/// Of each kind of a knob's settings the one with the largest error, and the knob's best one that is not
+/// the measure of the others.
 std::vector<std::string> knob_words(const Study& study)
 {
   std::vector<std::string> words;
@@ -217,13 +226,31 @@ std::vector<std::string> knob_words(const Study& study)
     }
     const auto error = [](const StudyPoint* p) { return p->own ? p->own->rms : p->errors.rms; };
     const auto by_error = [&](const StudyPoint* a, const StudyPoint* b) { return error(a) < error(b); };
-    const StudyPoint* worst = *std::max_element(drawn.begin(), drawn.end(), by_error);
     const StudyPoint* best = *std::min_element(drawn.begin(), drawn.end(), by_error);
-    words.push_back(point_words(study, *worst));
-    if (best != worst)
+    std::vector<const StudyPoint*> told;
+    for (const StudyPoint* point : drawn)
     {
-      words.back() += " " + point_words(study, *best);
+      const auto worst = std::find_if(told.begin(), told.end(),
+        [&](const StudyPoint* other) { return kind_of(*other) == kind_of(*point); });
+      if (worst == told.end())
+      {
+        told.push_back(point);
+      }
+      else if (by_error(*worst, point))
+      {
+        *worst = point;
+      }
     }
+    if (std::find(told.begin(), told.end(), best) == told.end())
+    {
+      told.push_back(best);
+    }
+    std::string text;
+    for (const StudyPoint* point : told)
+    {
+      text += (text.empty() ? "" : " ") + point_words(study, *point);
+    }
+    words.push_back(text);
   }
   return words;
 }

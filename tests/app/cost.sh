@@ -26,7 +26,13 @@ case_ "matter that absorbs: quadrature is the truth"
 blob ../blob.nrrd
 run cost ../blob.nrrd --output out "${small[@]}" --preset cloud --mappers raymarch,pathtrace
 expect_success
-expect_file out/cost.csv out/cost.json
+expect_file out/cost.csv out/cost.json out/report.html
+! grep -qE '(src|href)="(https?:|//)|url\(["'\'']?(https?:|//)' out/report.html ||
+  fail "expected a report without resources of the web"
+if command -v Xvfb > /dev/null; then
+  [ "$(head -c 8 out/cost.png | od -An -tx1 | tr -d ' ')" = 89504e470d0a1a0a ] || fail "expected a chart"
+  grep -q 'Error against seconds' out/report.html || fail "expected the chart in the report"
+fi
 expect_output '^The truth is a quadrature in double precision'
 [ "$(figure_of out "d['truth']['kind']")" = quadrature ] || fail "expected quadrature"
 [ "$(figure_of out "p['step','midpoint 4 voxels']['errors']['rms'] > 4 * p['step','midpoint 1 voxel']['errors']['rms']")" = True ] ||
@@ -112,6 +118,8 @@ PATH=/nonexistent DISPLAY=:9999 "$BRUME" cost ../blob.nrrd --output out "${small
   --knobs stock,step > ../out 2> ../err
 status=$?
 expect_status 0
+expect_error 'cost\.png: it is left out'
+expect_only out/{cost.csv,cost.json,report.html}
 grep -q 'xvfb' out/cost.json || fail "expected the reason in cost.json"
 
 if command -v Xvfb > /dev/null; then

@@ -7,6 +7,8 @@
 #include "Analysis/study_errors.h"
 #include "Analysis/study_json.h"
 #include "Analysis/study_words.h"
+#include "Analysis/study_report.h"
+#include "html_check.h"
 #include "sample_study.h"
 
 #include <gtest/gtest.h>
@@ -301,6 +303,44 @@ TEST(StudyWords, judge_promises)
   EXPECT_TRUE(contains(all_words(study), "misses it")) << all_words(study);
   study.points[1].asked_seconds = 0.25;
   EXPECT_TRUE(contains(all_words(study), "it took 0.3 s, 120 % of what it was given")) << all_words(study);
+}
+
+TEST(StudyReport, is_well_formed_and_needs_nothing_else)
+{
+  brume::Study study = sample::study();
+  study.points[4].left_out = { "fog" };
+  const brume::Bitmap chart{ 2, 2, std::vector<unsigned char>(12, 200) };
+  const std::string page = brume::to_html(study, &chart);
+  EXPECT_EQ(html::fault_of(page), "");
+  EXPECT_FALSE(contains(page, "http"));
+  EXPECT_FALSE(contains(page, "{{"));
+  for (const char* part : { "what accuracy costs in time", "sample:cloud", "4 voxels", "CPU 1 voxel",
+         "The last halving of the error cost", "10\u00A0times less error", "too dark by 50\u00A0%", "without fog",
+         "brume cost sample:cloud --output cost" })
+  {
+    EXPECT_TRUE(contains(page, part)) << part;
+  }
+  EXPECT_FALSE(contains(brume::to_html(study, nullptr), "Each mark is a setting"));
+}
+
+TEST(StudyReport, escapes_every_text_and_takes_an_empty_study)
+{
+  brume::Study study = sample::study();
+  const std::string evil = "<script>alert('x')</script>\"&\xff";
+  study.scene.input = study.command_line = study.date = study.truth.truth.method = evil;
+  for (brume::StudyKnob& knob : study.knobs)
+  {
+    knob.title = knob.what = evil;
+  }
+  for (brume::StudyPoint& point : study.points)
+  {
+    point.setting = evil;
+  }
+  study.points[4].skipped = evil;
+  const std::string page = brume::to_html(study, nullptr);
+  EXPECT_EQ(html::fault_of(page), "");
+  EXPECT_FALSE(contains(page, "alert('"));
+  EXPECT_EQ(html::fault_of(brume::to_html({}, nullptr)), "");
 }
 
 std::vector<std::string> fields_of(const std::string& line)
