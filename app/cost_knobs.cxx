@@ -442,14 +442,15 @@ CostKnob make_knob(const std::string& name, CostScene& scene)
   return {};
 }
 
-CostKnob make_combined_knob(CostScene& scene, int octaves)
+CostKnob make_combined_knob(CostScene& scene, StepRule rule, int octaves)
 {
   CostKnob knob;
   knob.knob = { "combined", "combined",
     "Several knobs at once, from coarse to fine: resolution, step, " +
       std::string(is_lit(scene) ? "the distance between the nodes of the shadow volume, and " +
-            std::to_string(octaves) + (octaves > 1 ? " octaves" : " octave")
-                                : "rule") +
+            std::to_string(octaves) + (octaves > 1 ? " octaves" : " octave") +
+            ", the rule of steps that erred least"
+                                : std::string("the rule of steps that erred least")) +
       ".",
     "" };
   knob.has_finest = false;
@@ -465,8 +466,7 @@ CostKnob make_combined_knob(CostScene& scene, int octaves)
   };
   MarchChoice choice = scene.march().standard();
   choice.octaves = octaves;
-  const bool integrated = scene.march().follows(StepRule::Integrated);
-  choice.rule = integrated ? StepRule::Integrated : StepRule::Midpoint;
+  choice.rule = rule;
   for (const Combination& c : { Combination{ 4, 4.0 }, Combination{ 2, 4.0 }, Combination{ 2, 2.0 },
          Combination{ 1, 4.0 }, Combination{ 1, 2.0 }, Combination{ 1, 1.0 } })
   {

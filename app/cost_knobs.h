@@ -62,7 +62,7 @@ private:
 /// outlive the settings.
 CostKnob make_knob(const std::string& name, CostScene& scene);
 
-/// Several knobs turned at once, from coarse to fine, with this number of octaves.
-CostKnob make_combined_knob(CostScene& scene, int octaves);
+/// Several knobs turned at once, from coarse to fine, with this rule of steps and number of octaves.
+CostKnob make_combined_knob(CostScene& scene, StepRule rule, int octaves);
 
 }
