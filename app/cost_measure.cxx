@@ -108,7 +108,9 @@ double CostMeasure::expected(const std::vector<Job>& jobs, const Job& job) const
       other.setting.effort <= job.setting.effort)
     {
       effort = other.setting.effort;
-      seconds = other.first * job.setting.effort / effort;
+      // What comes before a render and after it does not grow with the effort.
+      const double render = other.setting.point.timing.median;
+      seconds = std::max(0.0, other.first - render) + render * job.setting.effort / effort;
     }
   }
   return seconds;
