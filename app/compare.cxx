@@ -63,16 +63,17 @@ std::vector<MapperName> wanted_mappers(const Options& options)
     {
       throw Failure("--mappers " + name, "it is named twice", "name each once", BadCall);
     }
-    if (mapper.kind == MapperKind::PathTrace)
+    if (mapper.kind == MapperKind::PathTrace || mapper.kind == MapperKind::Smart)
     {
       throw Failure("--mappers " + name, "compare does not measure it yet",
-        "draw it with brume render --mapper pathtrace", BadCall);
+        "draw it with brume render --mapper " + name, BadCall);
     }
     wanted.push_back(mapper);
   }
   for (const MapperName& mapper : mapper_names())
   {
-    if (options.mappers.empty() && mapper.kind != MapperKind::PathTrace)
+    if (options.mappers.empty() && mapper.kind != MapperKind::PathTrace &&
+      mapper.kind != MapperKind::Smart)
     {
       wanted.push_back(mapper);
     }

@@ -10,6 +10,7 @@ const std::vector<MapperName>& mapper_names()
   static const std::vector<MapperName> names{
     { MapperKind::RayMarch, "raymarch", "Brume's ray march", "vtkBrumeRayMarchMapper" },
     { MapperKind::PathTrace, "pathtrace", "Brume's path tracer", "vtkBrumePathTraceMapper" },
+    { MapperKind::Smart, "smart", "Brume, by error or time", "vtkBrumeSmartVolumeMapper" },
     { MapperKind::FixedPoint, "vtk-fixed-point", "VTK on the CPU",
       "vtkFixedPointVolumeRayCastMapper" },
     { MapperKind::Gpu, "vtk-gpu", "VTK on the GPU", "vtkOpenGLGPUVolumeRayCastMapper" },

@@ -11,6 +11,7 @@ enum class MapperKind
 {
   RayMarch,   ///< vtkBrumeRayMarchMapper
   PathTrace,  ///< vtkBrumePathTraceMapper
+  Smart,      ///< vtkBrumeSmartVolumeMapper: one of the two before, by an error or a time
   FixedPoint, ///< vtkFixedPointVolumeRayCastMapper, VTK's own on the CPU
   Gpu,        ///< vtkOpenGLGPUVolumeRayCastMapper, VTK's own on the GPU
 };
@@ -26,7 +27,7 @@ struct MapperName
 /// Whether it is one of Brume's own, which need no display.
 inline bool is_own(MapperKind kind)
 {
-  return kind == MapperKind::RayMarch || kind == MapperKind::PathTrace;
+  return kind == MapperKind::RayMarch || kind == MapperKind::PathTrace || kind == MapperKind::Smart;
 }
 
 /// All of them, in the order in which they are shown.

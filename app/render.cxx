@@ -21,6 +21,7 @@
 #include "vtkBrumeFog.h"
 #include "vtkBrumePathTraceMapper.h"
 #include "vtkBrumeRayMarchMapper.h"
+#include "vtkBrumeSmartVolumeMapper.h"
 #include "vtkBrumeSparseVolume.h"
 
 #include "vtkCallbackCommand.h"
@@ -53,7 +54,7 @@ struct Options
 {
   SceneOptions scene;
   std::string output;
-  std::string mapper = "raymarch";
+  std::string mapper; ///< empty: by what is asked for
   std::string stats;
   DisplayOptions display;
 };
@@ -240,16 +241,22 @@ void run(const Options& options)
     throw Failure(options.display.exposure != 0.0 ? "--exposure" : "--display-curve",
       "EXR and HDR hold linear light as it is", "leave it out, or write a .png", BadCall);
   }
-  const MapperName& mapper = find_mapper(options.mapper, "--mapper");
+  const bool smart = asks_for_smart(options.scene) && !options.scene.input.empty();
+  const MapperName& mapper = find_mapper(
+    !options.mapper.empty() ? options.mapper : smart ? "smart" : "raymarch", "--mapper");
   check(options.scene);
   const std::string cannot = not_drawn_by(options.scene.modes, mapper.kind);
   if (!cannot.empty())
   {
-    throw Failure("--mapper " + options.mapper, cannot, "take --mapper raymarch", BadCall);
+    throw Failure("--mapper " + std::string(mapper.name), cannot, "take --mapper raymarch", BadCall);
   }
   if (mapper.kind == MapperKind::PathTrace)
   {
     refuse_beyond_paths(options.scene);
+  }
+  else if (mapper.kind == MapperKind::Smart)
+  {
+    refuse_beyond_smart(options.scene);
   }
   else
   {
@@ -276,6 +283,7 @@ void run(const Options& options)
   const Drawn drawn = !scene.volume        ? draw_fog(scene)
     : mapper.kind == MapperKind::RayMarch  ? draw_own<vtkBrumeRayMarchMapper>(scene)
     : mapper.kind == MapperKind::PathTrace ? draw_own<vtkBrumePathTraceMapper>(scene)
+    : mapper.kind == MapperKind::Smart     ? draw_own<vtkBrumeSmartVolumeMapper>(scene)
                                            : draw_stock(scene, mapper);
   InterruptionWatch::check(options.scene.input.c_str());
 
@@ -286,7 +294,7 @@ void run(const Options& options)
   if (ends_with(options.output, ".exr"))
   {
     write_exr(film, options.output,
-      { { "brume:input", options.scene.input }, { "brume:mapper", options.mapper },
+      { { "brume:input", options.scene.input }, { "brume:mapper", mapper.name },
         { "brume:preset", options.scene.preset } });
   }
   else
@@ -314,14 +322,17 @@ void run(const Options& options)
       std::cerr << "brume: " << options.scene.input << ": " << voxels
                 << " voxels are not finite and are drawn as empty\n";
     }
-    if (!statistics.value("tolerance_met", true))
+    const bool asked = mapper.kind != MapperKind::Smart || options.scene.tolerance_choice.has_value();
+    if (asked && !statistics.value("tolerance_met", true))
     {
       const nlohmann::json& error = statistics["estimated_error"];
+      const char* const remedy = mapper.kind == MapperKind::PathTrace ? "give more --samples-per-pixel"
+        : mapper.kind == MapperKind::RayMarch                         ? "give a smaller --sample-distance"
+        : options.scene.paths.seconds ? "give a longer --time-budget"
+                                      : "see what --verbose tells of the method";
       std::cerr << "brume: " << options.scene.input << ": the estimated error, "
-                << (error.is_null() ? "not known yet" : describe(error.get<double>())) << ", is over the tolerance: give "
-                << (mapper.kind == MapperKind::PathTrace ? "more --samples-per-pixel"
-                                                         : "a smaller --sample-distance")
-                << ", or a larger --tolerance\n";
+                << (error.is_null() ? "not known yet" : describe(error.get<double>()))
+                << ", is over the tolerance: " << remedy << ", or a larger --tolerance\n";
     }
   }
   if (options.scene.verbose)
@@ -347,7 +358,8 @@ void add_render(CLI::App& program)
     ->type_name("FILE");
   command
     ->add_option("--mapper", options->mapper,
-      "What draws it: " + list_mapper_names() + " [raymarch]")
+      "What draws it: " + list_mapper_names() + " [raymarch; smart where --tolerance or --time-budget is "
+      "given]")
     ->type_name("M");
   add_display_options(*command, options->display);
   command->add_option("--stats", options->stats, "Write what it took, as JSON, to FILE")

@@ -235,8 +235,10 @@ void add_scene_options(CLI::App& command, SceneOptions& o, const std::string& sh
     ->check(positive())
     ->group(cost);
   command
-    .add_option("--tolerance", o.tolerance,
-      "Largest error of a pixel that is accepted for speed, as a fraction of white [0.004]")
+    .add_option("--tolerance", o.tolerance_choice,
+      "Error that is accepted for speed, as a fraction of white: of 99.9 % of the pixels against the "
+      "truth, light scattered any number of times, by --mapper smart, which render takes where this is "
+      "given; the ray march counts the largest error that its steps make [0.004]")
     ->type_name("T")
     ->check(number("a number from 0 to 1", [](double v) { return v >= 0.0 && v <= 1.0; }))
     ->group(cost);
@@ -257,13 +259,14 @@ void add_scene_options(CLI::App& command, SceneOptions& o, const std::string& sh
     ->group(cost);
   command
     .add_option("--time-budget", o.paths.seconds,
-      "Seconds that tracing paths may take (--mapper pathtrace) [no limit]")
+      "Seconds that the picture may take, reading INPUT not counted: the best of that time by --mapper "
+      "smart, which render takes where this is given; of --mapper pathtrace the paths alone [no limit]")
     ->type_name("SECONDS")
     ->check(positive())
     ->group(cost);
   command
     .add_option("--seed", o.paths.seed,
-      "Which of all pictures of the same noise: a whole number of 32 bits (--mapper pathtrace) [1]")
+      "Which of all pictures of the same noise: a whole number of 32 bits (--mapper pathtrace, smart) [1]")
     ->type_name("S")
     ->check(number("a whole number from 0 to 4294967295",
       [](double v) { return v >= 0 && v <= 4294967295.0 && v == std::floor(v); }))
@@ -335,6 +338,39 @@ void refuse_beyond_paths(const SceneOptions& options)
   {
     throw Failure("--force", "paths simulate what they simulate", remedy, BadCall);
   }
+}
+
+namespace
+{
+
+/// The first option of steps or shadows that is given; empty: none.
+std::string march_option(const SceneOptions& options)
+{
+  return options.sample_distance                        ? "--sample-distance"
+    : options.medium.shadows != "automatic"             ? "--shadows"
+    : options.medium.shadow_sample_distance > 0.0       ? "--shadow-sample-distance"
+                                                        : "";
+}
+
+}
+
+void refuse_beyond_smart(const SceneOptions& options)
+{
+  if (const std::string option = march_option(options); !option.empty())
+  {
+    throw Failure(option, "--mapper smart chooses it by the error or the time",
+      "leave it out, or take --mapper raymarch", BadCall);
+  }
+  if (options.paths.samples_per_pixel || options.paths.scatterings)
+  {
+    throw Failure(options.paths.samples_per_pixel ? "--samples-per-pixel" : "--maximum-scatterings",
+      "it is the path tracer's", "add --mapper pathtrace, or leave it out", BadCall);
+  }
+}
+
+bool asks_for_smart(const SceneOptions& options)
+{
+  return options.paths.seconds || (options.tolerance_choice && march_option(options).empty());
 }
 
 void refuse_paths(const SceneOptions& options, const std::string& remedy)

@@ -20,7 +20,8 @@ namespace brume::app
 {
 
 /// What the user says about the scene. Empty optionals are settled from the volume (volume_scene.h).
-/// How paths are traced (--mapper pathtrace); what is not given is the mapper's default.
+/// How paths are traced (--mapper pathtrace, and time and seed for smart); what is not given is the
+/// mapper's default.
 struct PathOptions
 {
   std::optional<int> samples_per_pixel;
@@ -57,6 +58,8 @@ struct SceneOptions
   std::string shade = "preset"; ///< on, off, or preset: as the preset has it
   ModeOptions modes;
   MediumOptions medium;
+  std::optional<double> tolerance_choice;
+  /// The choice, if there is one. Settled by make_volume_scene().
   double tolerance = 0.004;
   PathOptions paths;
   int threads = 0;
@@ -85,6 +88,13 @@ void refuse_beyond_stock_mappers(const SceneOptions& options, const std::string&
 
 /// Throws Failure (BadCall) where an option was given that the path tracer does not follow.
 void refuse_beyond_paths(const SceneOptions& options);
+
+/// Throws Failure (BadCall) where an option was given that vtkBrumeSmartVolumeMapper chooses itself.
+void refuse_beyond_smart(const SceneOptions& options);
+
+/// Whether, without --mapper, the picture is the smart mapper's: an error or a time was asked for, and no
+/// step or shadow that would be the ray march's.
+bool asks_for_smart(const SceneOptions& options);
 
 /// Throws Failure (BadCall) where an option of the path tracer was given to something else.
 void refuse_paths(const SceneOptions& options, const std::string& remedy);

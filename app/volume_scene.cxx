@@ -15,6 +15,7 @@
 #include "vtkBrumePathTraceMapper.h"
 #include "vtkBrumeRayMarchMapper.h"
 #include "vtkBrumeSky.h"
+#include "vtkBrumeSmartVolumeMapper.h"
 #include "vtkBrumeSparseVolume.h"
 
 #include "vtkCallbackCommand.h"
@@ -289,6 +290,7 @@ VolumeScene make_volume_scene(const SceneOptions& options)
 {
   VolumeScene scene;
   scene.options = options;
+  scene.options.tolerance = options.tolerance_choice.value_or(options.tolerance);
   if (!options.preset.empty())
   {
     scene.preset = &find_preset(options.preset); // before the work of reading
@@ -409,6 +411,18 @@ void set_up(const VolumeScene& scene, vtkBrumePathTraceMapper* mapper)
   mapper->SetMaximumScatterings(paths.scatterings.value_or(mapper->GetMaximumScatterings()));
   mapper->SetTimeBudget(paths.seconds.value_or(mapper->GetTimeBudget()));
   mapper->SetSeed(paths.seed.value_or(mapper->GetSeed()));
+}
+
+void set_up(const VolumeScene& scene, vtkBrumeSmartVolumeMapper* mapper)
+{
+  give_scene(scene, mapper);
+  const PathOptions& paths = scene.options.paths;
+  mapper->SetTimeBudget(paths.seconds.value_or(mapper->GetTimeBudget()));
+  mapper->SetSeed(paths.seed.value_or(mapper->GetSeed()));
+  if (paths.seconds && !scene.options.tolerance_choice)
+  {
+    mapper->SetTolerance(0.0);
+  }
 }
 
 void fit_clipping_range(const VolumeScene& scene)

@@ -13,6 +13,7 @@ class vtkBrumeFog;
 class vtkBrumeMedium;
 class vtkBrumePathTraceMapper;
 class vtkBrumeRayMarchMapper;
+class vtkBrumeSmartVolumeMapper;
 class vtkBrumeVolumeMapper;
 class vtkBrumeSky;
 class vtkCamera;
@@ -67,6 +68,8 @@ void fit_clipping_range(const VolumeScene& scene);
 ///@{
 void set_up(const VolumeScene& scene, vtkBrumeRayMarchMapper* mapper);
 void set_up(const VolumeScene& scene, vtkBrumePathTraceMapper* mapper);
+/// With a --time-budget and no --tolerance the tolerance is 0: the best picture of the time.
+void set_up(const VolumeScene& scene, vtkBrumeSmartVolumeMapper* mapper);
 ///@}
 
 /// What a VTK object complained of, without the place in its source, one line; "see brume info" for an

@@ -131,11 +131,13 @@ void MarchChoices::ChooseStep(Marcher& marcher, const Scene& whole, const Choice
   const std::vector<double> key{ tolerance,
     static_cast<double>(wanted.choose_shadows),
     static_cast<double>(wanted.shadows),
-    wanted.shadow_step };
+    wanted.shadow_step,
+    wanted.beyond,
+    static_cast<double>(wanted.step_edge) };
   if (!this->StepMade.Holds(whole, key, this->Effects))
   {
-    this->Step = choose_step(
-      marcher, *this->TheScene, tolerance, wanted.threads, lit ? this->Settings : MarchSettings());
+    this->Step = choose_step(marcher, *this->TheScene, tolerance, wanted.threads,
+      lit ? this->Settings : MarchSettings(), wanted.beyond, wanted.step_edge);
     this->StepMade.Take(whole, key, this->Effects);
   }
   this->Settings.rule = this->Step.rule;

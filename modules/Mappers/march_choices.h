@@ -29,6 +29,9 @@ struct ChoiceSettings
   /// Steps are chosen by the tolerance in place of `step`.
   bool choose_step = true;
   double step = 1.0;
+  /// The share of pixels that may have larger errors than the tolerance by their steps (choose_step).
+  double beyond = 0.0;
+  int step_edge = 64; ///< rays along each side of the square that tells them
   bool jitter = false;
   /// Of a coarse picture, which is to be there at once, the plan of another view is good enough.
   bool coarse = false;

@@ -1,5 +1,7 @@
 #include "march_report.h"
 
+#include "Transport/step_control.h"
+
 #include <nlohmann/json.hpp>
 
 #include <sys/resource.h>
@@ -90,6 +92,39 @@ const char* blend_mode_name(BlendMode mode)
     default:
       return "composite";
   }
+}
+
+nlohmann::json statistics_of(const Scene& scene,
+  const MarchSettings& settings,
+  const MarchStatistics& march,
+  const EffectPlan& plan,
+  bool window_level)
+{
+  nlohmann::json statistics;
+  statistics["seconds"] = march.seconds;
+  statistics["samples"] = march.samples;
+  statistics["rays"] = march.rays;
+  statistics["threads"] = march.threads;
+  statistics["simd"] = march.simd;
+  statistics["step"] = march.step;
+  statistics["step_rule"] = step_rule_name(march.rule);
+  statistics["refinements"] = settings.refinements;
+  statistics["step_in_voxels"] = march.step / smallest_voxel_edge(scene);
+  statistics["blend_mode"] = blend_mode_name(scene.blend_mode);
+  statistics["volumes"] = scene.volumes.size();
+  statistics["shadow_method"] = shadow_method_name(march.shadows);
+  statistics["shadow_step"] = march.shadow_step;
+  statistics["light_bytes"] = march.light_bytes;
+  statistics["seconds_light"] = march.seconds_light;
+  statistics["effects"] = effects_of(scene, settings, march, plan, window_level);
+  statistics["effects_error_bound"] = plan.error_bound();
+  statistics["non_finite_voxels"] = march.non_finite_voxels;
+  statistics["bricks"] = march.bricks;
+  statistics["visible_bricks"] = march.visible_bricks;
+  statistics["radiometric"] = is_radiometric(scene, window_level);
+  statistics["peak_memory_bytes"] = peak_memory_bytes();
+  statistics["completed"] = march.completed;
+  return statistics;
 }
 
 bool is_radiometric(const Scene& scene, bool window_level)

@@ -24,6 +24,14 @@ nlohmann::json effects_of(const Scene& scene,
   const EffectPlan& plan,
   bool window_level);
 
+/// What statistics tell of any march: seconds, samples, step, shadows, effects, voxels, … docs/user/statistics.md
+/// has them. `scene` is what was marched.
+nlohmann::json statistics_of(const Scene& scene,
+  const MarchSettings& settings,
+  const MarchStatistics& march,
+  const EffectPlan& plan,
+  bool window_level);
+
 /// Whether nothing but physics had a part in the picture of a scene (as it was marched).
 bool is_radiometric(const Scene& scene, bool window_level);
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -105,6 +106,38 @@ nlohmann::json effects_of(const EffectPlan& plan)
       { "forced", planned.forced } });
   }
   return effects;
+}
+
+nlohmann::json statistics_of(const Scene& scene,
+  const PathSettings& settings,
+  const PathStatistics& paths,
+  const EffectPlan& plan,
+  bool window_level)
+{
+  nlohmann::json statistics;
+  statistics["seconds"] = paths.seconds;
+  statistics["samples"] = paths.collisions;
+  statistics["rays"] = paths.paths;
+  statistics["samples_per_pixel"] = paths.samples_per_pixel;
+  statistics["mean_samples_per_pixel"] = paths.mean_samples;
+  statistics["scatterings"] = paths.scatterings;
+  statistics["shadow_rays"] = paths.shadow_rays;
+  statistics["threads"] = paths.threads;
+  statistics["simd"] = "none";
+  statistics["seed"] = settings.seed;
+  statistics["maximum_scatterings"] = settings.most_scatterings;
+  statistics["blend_mode"] = blend_mode_name(scene.blend_mode);
+  statistics["volumes"] = scene.volumes.size();
+  // Infinite before there are samples enough: null, which JSON has in its place.
+  const bool known = std::isfinite(paths.estimated_error);
+  statistics["estimated_error"] = known ? nlohmann::json(paths.estimated_error) : nullptr;
+  statistics["rms_error"] = known ? nlohmann::json(paths.rms_error) : nullptr;
+  statistics["effects"] = effects_of(plan);
+  statistics["non_finite_voxels"] = paths.non_finite_voxels;
+  statistics["radiometric"] = is_radiometric_as_paths(scene, window_level);
+  statistics["peak_memory_bytes"] = peak_memory_bytes();
+  statistics["completed"] = paths.completed;
+  return statistics;
 }
 
 bool is_radiometric_as_paths(const Scene& scene, bool window_level)

@@ -3,6 +3,7 @@
 #define path_report_h
 
 #include "Transport/effect_plan.h"
+#include "Transport/path_tracer.h"
 #include "Transport/scene.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -16,6 +17,13 @@ EffectPlan plan_of_paths(const Scene& scene, int most_scatterings, bool environm
 
 /// The plan's effects, as statistics list them.
 nlohmann::json effects_of(const EffectPlan& plan);
+
+/// What statistics tell of any picture by paths; docs/user/statistics.md has the keys.
+nlohmann::json statistics_of(const Scene& scene,
+  const PathSettings& settings,
+  const PathStatistics& paths,
+  const EffectPlan& plan,
+  bool window_level);
 
 /// As is_radiometric() (march_report.h): paths draw neither shading of lit media, nor silver lining,
 /// nor powder.

@@ -16,7 +16,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 struct vtkBrumePathTraceMapper::Internals
 {
@@ -79,34 +78,13 @@ bool vtkBrumePathTraceMapper::RenderScene(brume::Scene& scene, brume::Film& film
     scene, this->MaximumScatterings, settings.environment != nullptr);
   this->GetEffectPlan()->SetPlan(plan);
   const bool window = this->FinalColorWindow != 1.0f || this->FinalColorLevel != 0.5f;
-  nlohmann::json statistics;
+  nlohmann::json statistics = brume::statistics_of(scene, settings, paths, plan, window);
   statistics["mapper"] = "pathtrace";
-  statistics["seconds"] = paths.seconds;
   statistics["seconds_prepare"] = this->SecondsScene + paths.seconds_prepare;
-  statistics["samples"] = paths.collisions;
-  statistics["rays"] = paths.paths;
-  statistics["samples_per_pixel"] = paths.samples_per_pixel;
-  statistics["scatterings"] = paths.scatterings;
-  statistics["shadow_rays"] = paths.shadow_rays;
-  statistics["threads"] = paths.threads;
-  statistics["simd"] = "none";
-  statistics["seed"] = this->Seed;
-  statistics["maximum_scatterings"] = this->MaximumScatterings;
-  statistics["blend_mode"] = brume::blend_mode_name(scene.blend_mode);
-  statistics["volumes"] = scene.volumes.size();
   statistics["image_sample_distance"] = this->ImageSampleDistanceInUse;
   statistics["tolerance"] = this->Tolerance;
-  // Infinite before there are samples enough: null, which JSON has in its place.
-  const bool known = std::isfinite(paths.estimated_error);
-  statistics["estimated_error"] = known ? nlohmann::json(paths.estimated_error) : nullptr;
-  statistics["rms_error"] = known ? nlohmann::json(paths.rms_error) : nullptr;
   statistics["tolerance_met"] = paths.estimated_error <= this->Tolerance;
-  statistics["effects"] = brume::effects_of(plan);
   statistics["ignored_settings"] = this->IgnoredSettings;
-  statistics["non_finite_voxels"] = paths.non_finite_voxels;
-  statistics["radiometric"] = brume::is_radiometric_as_paths(scene, window);
-  statistics["peak_memory_bytes"] = brume::peak_memory_bytes();
-  statistics["completed"] = paths.completed;
   this->Statistics = statistics.dump(2);
   return paths.completed;
 }

@@ -194,22 +194,12 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& whole, brume::Film& film)
   }
 
   const bool window = this->FinalColorWindow != 1.0f || this->FinalColorLevel != 0.5f;
-  nlohmann::json statistics;
+  nlohmann::json statistics =
+    brume::statistics_of(scene, settings, march, choices.GetPlan(), window);
   statistics["mapper"] = "raymarch";
-  statistics["seconds"] = march.seconds;
   statistics["seconds_prepare"] =
     this->SecondsScene + secondsChoices + march.seconds_prepare;
-  statistics["samples"] = march.samples;
-  statistics["rays"] = march.rays;
-  statistics["threads"] = march.threads;
-  statistics["simd"] = march.simd;
-  statistics["step"] = march.step;
-  statistics["step_rule"] = brume::step_rule_name(march.rule);
-  statistics["refinements"] = settings.refinements;
-  statistics["step_in_voxels"] = march.step / brume::smallest_voxel_edge(scene);
   statistics["image_sample_distance"] = this->ImageSampleDistanceInUse;
-  statistics["blend_mode"] = brume::blend_mode_name(scene.blend_mode);
-  statistics["volumes"] = scene.volumes.size();
   statistics["tolerance"] = this->Tolerance;
   if (this->AutoAdjustSampleDistances)
   {
@@ -226,20 +216,7 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& whole, brume::Film& film)
   {
     statistics["shadows_chosen_by"] = choices.HasChosenShadows() ? "tolerance" : "caller";
   }
-  statistics["shadow_method"] = brume::shadow_method_name(march.shadows);
-  statistics["shadow_step"] = march.shadow_step;
-  statistics["light_bytes"] = march.light_bytes;
-  statistics["seconds_light"] = march.seconds_light;
-  statistics["effects"] =
-    brume::effects_of(scene, settings, march, choices.GetPlan(), window);
-  statistics["effects_error_bound"] = choices.GetPlan().error_bound();
   statistics["ignored_settings"] = this->IgnoredSettings;
-  statistics["non_finite_voxels"] = march.non_finite_voxels;
-  statistics["bricks"] = march.bricks;
-  statistics["visible_bricks"] = march.visible_bricks;
-  statistics["radiometric"] = brume::is_radiometric(scene, window);
-  statistics["peak_memory_bytes"] = brume::peak_memory_bytes();
-  statistics["completed"] = march.completed;
   this->Statistics = statistics.dump(2);
   return march.completed;
 }

@@ -1,6 +1,6 @@
 #include "Transport/path_pixels.h"
 
-#include <algorithm>
+#include <map>
 
 namespace brume
 {
@@ -25,21 +25,16 @@ std::uint64_t trace_pixels(const PathScene& scene,
   int y,
   int from,
   int to,
-  int target,
+  const PathTargets& targets,
   std::uint32_t seed,
   PathSums& result,
   PathCounts& counts)
 {
   std::uint64_t traced = 0;
-  std::vector<PathStart> starts; // all have as many paths to go
+  std::map<int, std::vector<PathStart>> together; // by the paths that they have to go
   std::vector<float> radiance;
-  int samples = 0;
-  const auto flush = [&]
+  const auto flush = [&](int samples, const std::vector<PathStart>& starts)
   {
-    if (starts.empty())
-    {
-      return;
-    }
     radiance.resize(starts.size() * samples * 3);
     trace_paths(*scene.packets(), starts, samples, scene.most_scatterings(), seed, radiance.data(), counts);
     const float* next = radiance.data();
@@ -50,12 +45,12 @@ std::uint64_t trace_pixels(const PathScene& scene,
         add(result, start.pixel, glm::dvec3(next[0], next[1], next[2]));
       }
     }
-    starts.clear();
   };
   for (int x = from; x < to; ++x)
   {
     const std::size_t pixel = static_cast<std::size_t>(y) * width + x;
     const int first = result.samples[pixel];
+    const int target = targets.of(pixel);
     if (first >= target)
     {
       continue;
@@ -74,12 +69,7 @@ std::uint64_t trace_pixels(const PathScene& scene,
       start.first = static_cast<std::uint32_t>(first);
       if (scene.find_start(sight, start))
       {
-        if (samples != target - first)
-        {
-          flush();
-          samples = target - first;
-        }
-        starts.push_back(start);
+        together[target - first].push_back(start);
       }
       continue;
     }
@@ -89,7 +79,10 @@ std::uint64_t trace_pixels(const PathScene& scene,
       add(result, pixel, scene.radiance(sight, random, counts));
     }
   }
-  flush();
+  for (const auto& [samples, starts] : together)
+  {
+    flush(samples, starts);
+  }
   return traced;
 }
 

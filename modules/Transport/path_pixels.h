@@ -26,7 +26,18 @@ struct PathSums
   }
 };
 
-/// Brings the pixels [from, to) of the row y to `target` paths each: in packets where the scene
+/// How many paths pixels are to have.
+struct PathTargets
+{
+  int all = 0;                ///< the most
+  const int* each = nullptr;  ///< of each pixel of the picture; null: `all`
+  int of(std::size_t pixel) const
+  {
+    return this->each && this->each[pixel] < this->all ? this->each[pixel] : this->all;
+  }
+};
+
+/// Brings the pixels [from, to) of the row y to their targets: in packets where the scene
 /// allows it, else one by one. The sums do not depend on how pixels and paths are cut into calls.
 /// Returns the number of paths traced.
 std::uint64_t trace_pixels(const PathScene& scene,
@@ -35,7 +46,7 @@ std::uint64_t trace_pixels(const PathScene& scene,
   int y,
   int from,
   int to,
-  int target,
+  const PathTargets& targets,
   std::uint32_t seed,
   PathSums& result,
   PathCounts& counts);

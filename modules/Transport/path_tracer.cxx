@@ -29,13 +29,19 @@ namespace
 using Clock = std::chrono::steady_clock;
 
 /// From so many paths a pixel on, standard errors are estimated.
-constexpr int fewest_samples = 16;
+constexpr int fewest_samples = PathSettings::fewest_samples;
 
 /// Paths a pixel of one pass, at the most: a pass is what is waited for when time is short.
 constexpr int most_of_pass = 64;
 
 /// Paths that are handed out together, about.
 constexpr int paths_at_once = 4096;
+
+/// How many times the paths of a pixel one pass may multiply, where pixels have their own number: what
+/// they are by is an estimate that the pass betters. Their numbers differ by whole steps of a part of
+/// what they have, so that many go together in packets.
+constexpr double most_growth = 3.0;
+constexpr int parts_of_growth = 8;
 
 double seconds_since(Clock::time_point start)
 {
@@ -45,10 +51,12 @@ double seconds_since(Clock::time_point start)
 void check(const PathSettings& settings, const Film& film)
 {
   if (settings.samples_per_pixel < 1 || !(settings.tolerance >= 0.0) ||
-      !(settings.seconds >= 0.0) || settings.most_scatterings < 0 || !(settings.step >= 0.0))
+      !(settings.seconds >= 0.0) || settings.most_scatterings < 0 || !(settings.step >= 0.0) ||
+      !(settings.beyond > 0.0 && settings.beyond < 1.0))
   {
-    throw std::invalid_argument("path tracing needs at least one sample a pixel, and a tolerance, "
-                                "a time, scatterings and a step that are not negative");
+    throw std::invalid_argument("path tracing needs at least one sample a pixel, a tolerance, "
+                                "a time, scatterings and a step that are not negative, and a share "
+                                "of pixels between 0 and 1");
   }
   if (film.width < 1 || film.height < 1)
   {
@@ -95,21 +103,46 @@ struct PathTracer::Kept
   {
     return *std::min_element(this->Paths.samples.begin(), this->Paths.samples.end());
   }
-  int fewest_of_row(int y) const
+  double mean_samples() const
   {
-    const auto row = this->Paths.samples.begin() + static_cast<std::ptrdiff_t>(y) * this->Width;
-    return *std::min_element(row, row + this->Width);
+    double sum = 0.0;
+    for (const int n : this->Paths.samples)
+    {
+      sum += n;
+    }
+    return sum / static_cast<double>(this->Paths.samples.size());
   }
 
-  /// The variance of the mean of a pixel's paths.
-  double variance(std::size_t pixel, int channel) const
+  /// The variance of a pixel's paths.
+  double variance_of_path(std::size_t pixel, int channel) const
   {
     const int n = this->Paths.samples[pixel];
     const double sum = this->Paths.sums[3 * pixel + channel];
-    const double mean = sum / n;
-    return n < 2 ? 0.0
-                 : std::max(this->Paths.squares[3 * pixel + channel] - sum * mean, 0.0) /
-                     (static_cast<double>(n) * (n - 1));
+    return n < 2 ? 0.0 : std::max(this->Paths.squares[3 * pixel + channel] - sum * (sum / n), 0.0) / (n - 1);
+  }
+  /// The variance of their mean.
+  double variance(std::size_t pixel, int channel) const
+  {
+    return this->variance_of_path(pixel, channel) / std::max(this->Paths.samples[pixel], 1);
+  }
+  /// The largest of a pixel's channels, of its paths; no less than the mean of the pixels around it, as
+  /// samples that are all alike tell little.
+  void careful_variance(int x, int y, double v[3]) const
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      double around = 0.0;
+      int count = 0;
+      for (int j = std::max(y - 1, 0); j <= std::min(y + 1, this->Height - 1); ++j)
+      {
+        for (int i = std::max(x - 1, 0); i <= std::min(x + 1, this->Width - 1); ++i, ++count)
+        {
+          around += this->variance_of_path(static_cast<std::size_t>(j) * this->Width + i, c);
+        }
+      }
+      const double own = this->variance_of_path(static_cast<std::size_t>(y) * this->Width + x, c);
+      v[c] = std::isnan(own) ? own : std::max(own, around / count);
+    }
   }
   PathError error() const
   {
@@ -118,25 +151,42 @@ struct PathTracer::Kept
     {
       for (int x = 0; x < this->Width; ++x)
       {
+        const int n = this->Paths.samples[static_cast<std::size_t>(y) * this->Width + x];
         double v[3];
-        for (int c = 0; c < 3; ++c)
+        this->careful_variance(x, y, v);
+        for (double& channel : v)
         {
-          double around = 0.0;
-          int count = 0;
-          for (int j = std::max(y - 1, 0); j <= std::min(y + 1, this->Height - 1); ++j)
-          {
-            for (int i = std::max(x - 1, 0); i <= std::min(x + 1, this->Width - 1); ++i, ++count)
-            {
-              around += this->variance(static_cast<std::size_t>(j) * this->Width + i, c);
-            }
-          }
-          const double own = this->variance(static_cast<std::size_t>(y) * this->Width + x, c);
-          v[c] = std::isnan(own) ? own : std::max(own, around / count);
+          channel /= std::max(n, 1);
         }
-        error.add(v);
+        error.add(v, n);
       }
     }
     return error;
+  }
+  /// Paths that bring each pixel's standard error down to `cap`, from one pass to the next; at the least or
+  /// about.
+  void find_targets(double cap, int most, bool at_least, std::vector<int>& targets) const
+  {
+    targets.resize(this->Paths.samples.size());
+    for (int y = 0; y < this->Height; ++y)
+    {
+      for (int x = 0; x < this->Width; ++x)
+      {
+        const std::size_t pixel = static_cast<std::size_t>(y) * this->Width + x;
+        double v[3];
+        this->careful_variance(x, y, v);
+        const double n = this->Paths.samples[pixel];
+        const double largest = std::max({ v[0], v[1], v[2] });
+        const double highest = std::max<double>(n, std::min<double>(most, most_growth * n));
+        const double wanted = largest == 0.0                        ? n
+                              : cap > 0.0 && std::isfinite(largest) ? largest / (cap * cap)
+                                                                    : highest;
+        const double part = std::max(std::floor(n / parts_of_growth), 1.0);
+        const double parts = (std::clamp(wanted, n, highest) - n) / part;
+        const double target = n + part * (at_least ? std::ceil(parts) : std::round(parts));
+        targets[pixel] = static_cast<int>(std::min<double>(target, most));
+      }
+    }
   }
   void show(Film& film) const
   {
@@ -204,6 +254,9 @@ PathStatistics PathTracer::render(const Scene& scene,
   statistics.seconds_prepare = seconds_since(begin);
 
   const auto start = Clock::now();
+  // Of the paths alone.
+  const double seconds = std::max(
+    settings.seconds - (settings.seconds_of_all ? statistics.seconds_prepare : 0.0), 0.0);
   const PathSights sights(scene, film.width, film.height);
   const std::thread::id caller = std::this_thread::get_id();
   std::atomic<bool> aborted{ false };
@@ -212,14 +265,12 @@ PathStatistics PathTracer::render(const Scene& scene,
   std::atomic<std::uint64_t> shadow_rays{ 0 };
   std::atomic<std::uint64_t> traced{ 0 };
   const int already = kept.fewest();
+  std::atomic<bool> late{ false };
 
-  /// Brings every pixel to `target` paths.
-  const auto pass = [&](int target)
+  /// Brings every pixel to its target; `from` and `part` are of the progress.
+  const auto pass = [&](const PathTargets& targets, double from, double part, bool may_be_late)
   {
     std::atomic<int> rows{ 0 };
-    const double all = std::max(settings.samples_per_pixel - already, 1);
-    const double before = (kept.fewest() - already) / all;
-    const double part = (target - kept.fewest()) / all;
     tbb::task_arena arena(statistics.threads);
     arena.execute(
       [&]
@@ -231,23 +282,38 @@ PathStatistics PathTracer::render(const Scene& scene,
             for (int y = range.begin(); y != range.end(); ++y)
             {
               PathCounts counts;
-              // So many pixels at once that packets of paths are full, and no wait is long.
-              const int more = std::max(target - kept.fewest_of_row(y), 1);
-              const int together = std::max(paths_at_once / more, 1);
-              for (int x = 0; x < film.width && !aborted; x += together)
+              int x = 0;
+              while (x < film.width && !aborted && !late)
               {
-                traced += trace_pixels(paths,
-                  sights,
-                  film.width,
-                  y,
-                  x,
-                  std::min(x + together, film.width),
-                  target,
-                  settings.seed,
-                  kept.Paths,
-                  counts);
+                // So many pixels at once that packets of paths are full, and no wait is long.
+                int end = x;
+                int many = 0;
+                PathTargets some = targets;
+                while (end < film.width && many < paths_at_once)
+                {
+                  const std::size_t pixel = static_cast<std::size_t>(y) * film.width + end;
+                  const int first = kept.Paths.samples[pixel];
+                  const int more = targets.of(pixel) - first;
+                  if (more > paths_at_once)
+                  {
+                    // By itself, a part at a time.
+                    some.all = end == x ? first + paths_at_once : targets.all;
+                    end += end == x;
+                    break;
+                  }
+                  many += std::max(more, 0);
+                  ++end;
+                }
+                traced += trace_pixels(paths, sights, film.width, y, x, end, some, settings.seed,
+                  kept.Paths, counts);
+                const bool whole = some.all == targets.all;
+                x = whole ? end : x;
+                if (may_be_late && seconds_since(start) > seconds)
+                {
+                  late = true;
+                }
                 if (progress && std::this_thread::get_id() == caller &&
-                    !progress(before + part * rows / film.height))
+                    !progress(std::min(from + part * rows / film.height, 1.0)))
                 {
                   aborted = true;
                 }
@@ -262,29 +328,78 @@ PathStatistics PathTracer::render(const Scene& scene,
       });
   };
 
+  std::vector<int> targets;
   int target = already;
-  while (paths.can_send() && target < settings.samples_per_pixel && !aborted)
+  while (paths.can_send() && target < settings.samples_per_pixel && !aborted && !late)
   {
-    if (settings.tolerance > 0.0 && target >= fewest_samples &&
-        kept.error().quantile() <= settings.tolerance)
+    const bool timed = settings.seconds > 0.0;
+    const bool estimated = kept.fewest() >= fewest_samples;
+    PathError error;
+    if (estimated && (settings.tolerance > 0.0 || settings.adaptive))
     {
-      break;
-    }
-    // Passes double at first, so that what is asked between them costs little.
-    const int done = target - already;
-    double more = std::clamp(done, 1, most_of_pass);
-    if (settings.seconds > 0.0 && done > 0)
-    {
-      const double passed = seconds_since(start);
-      more =
-        std::min(more, std::floor(done * (settings.seconds - passed) / std::max(passed, 1e-9)));
-      if (more < 1.0)
+      error = kept.error();
+      if (settings.tolerance > 0.0 && error.quantile(settings.beyond) <= settings.tolerance)
       {
         break;
       }
     }
-    target += static_cast<int>(std::min<double>(more, settings.samples_per_pixel - target));
-    pass(target);
+    const double done = static_cast<double>(traced);
+    const double passed = seconds_since(start);
+    // Paths that there is time for, of those that are to be traced.
+    const double affordable =
+      timed && done > 0.0 ? done * std::max(seconds - passed, 0.0) / std::max(passed, 1e-9) : 1e300;
+    if (estimated && settings.adaptive)
+    {
+      // A little lower, so that the last pass is the last.
+      double cap = settings.tolerance > 0.0
+                     ? 0.99 * error.cap(settings.tolerance, settings.beyond)
+                     : 0.0;
+      double more = cap > 0.0 ? error.paths_to(cap) : 1e300;
+      const bool short_of_time = more > affordable;
+      if (short_of_time)
+      {
+        more = affordable;
+        cap = error.cap_of(more);
+      }
+      kept.find_targets(cap, settings.samples_per_pixel, !short_of_time, targets);
+      double in_pass = 0.0;
+      for (std::size_t pixel = 0; pixel < targets.size(); ++pixel)
+      {
+        in_pass += targets[pixel] - kept.Paths.samples[pixel];
+      }
+      if (in_pass < 1.0 || (timed && affordable < 0.01 * done))
+      {
+        break;
+      }
+      more = std::max(more, in_pass);
+      pass({ settings.samples_per_pixel, targets.data() }, done / (done + more), in_pass / (done + more),
+        timed);
+      continue;
+    }
+    // Passes double at first, so that what is asked between them costs little.
+    const int so_far = target - already;
+    double more = std::clamp(so_far, 1, most_of_pass);
+    if (settings.adaptive)
+    {
+      more = std::min<double>(more, std::max(fewest_samples - target, 1));
+    }
+    if (so_far > 0)
+    {
+      more = std::min(more, std::floor(affordable / std::max(done, 1.0) * so_far));
+      if (more < 1.0)
+      {
+        // What is left of the time is for a part of a pass, where pixels need not be alike.
+        if (!settings.adaptive || affordable < 0.02 * done)
+        {
+          break;
+        }
+        more = 1.0;
+      }
+    }
+    const double all = std::max(settings.samples_per_pixel - already, 1);
+    more = std::min<double>(more, settings.samples_per_pixel - target);
+    target += static_cast<int>(more);
+    pass({ target }, so_far / all, more / all, timed && so_far > 0);
   }
   if (!paths.can_send())
   {
@@ -292,6 +407,7 @@ PathStatistics PathTracer::render(const Scene& scene,
   }
   kept.show(film);
   statistics.samples_per_pixel = kept.fewest();
+  statistics.mean_samples = kept.mean_samples();
   if (statistics.samples_per_pixel >= fewest_samples || !paths.can_send())
   {
     const PathError error = kept.error();

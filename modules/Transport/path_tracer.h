@@ -22,9 +22,20 @@ struct PathSettings
   int samples_per_pixel = 64;
   /// Stops sooner when the estimated error is no larger; see PathStatistics. 0: never.
   double tolerance = 0.0;
+  /// The share of the pixels that may have a larger error than the tolerance, in (0, 1). Asking for
+  /// less than what the picture is judged by leaves room for chance.
+  double beyond = 0.001;
+  /// Pixels have paths by their own noise, as many as the tolerance or the seconds ask for: at least
+  /// `fewest_samples`, at most samples_per_pixel. Off: all have the same number. On, whether a pixel
+  /// has enough is told from the paths themselves, which leaves a bias that is small against the
+  /// noise.
+  bool adaptive = false;
+  static constexpr int fewest_samples = 16;
   /// Stops sooner rather than trace paths for longer than this, in seconds, after one path a pixel.
-  /// 0: never.
+  /// 0: never. A pass that takes longer than was to be expected is left within it.
   double seconds = 0.0;
+  /// The seconds count from the call on, with what is prepared.
+  bool seconds_of_all = false;
   /// Scatterings of a path, at the most; 0: any number. With 1 the picture is the ray marcher's
   /// without octaves, but for sky and glow, of which the marcher knows less.
   int most_scatterings = 0;
@@ -49,7 +60,8 @@ struct PathStatistics
 {
   double seconds_prepare = 0.0; ///< bounds of bricks, transmittance
   double seconds = 0.0;         ///< paths alone, of this call
-  int samples_per_pixel = 0;    ///< paths that each pixel has, those resumed from among them
+  int samples_per_pixel = 0; ///< paths that each pixel has at the least, those resumed from among them
+  double mean_samples = 0.0; ///< the mean over the pixels
   std::uint64_t paths = 0;      ///< of this call
   std::uint64_t collisions = 0; ///< places at which matter was read, of this call
   std::uint64_t scatterings = 0;

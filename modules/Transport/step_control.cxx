@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -36,6 +37,8 @@ constexpr double shortest = 1.0 / 32.0;
 /// tolerances its steps go on to be halved.
 constexpr double shortest_lit = 1.0 / 128.0;
 constexpr double sharpest_below = 1e-4;
+/// Where a share of the pixels may be beyond the tolerance.
+constexpr double shortest_of_share = 1.0 / 256.0;
 /// The largest error of all pixels is larger than that of the rays that were looked at.
 constexpr double unseen = 1.5;
 /// The share of rays that settles the step of all, where the others can be refined.
@@ -267,11 +270,27 @@ ShadowChoice choose_shadows(Marcher& marcher, const Scene& scene, double toleran
   }
 }
 
+int credible_count(int count, double share)
+{
+  constexpr double doubt = 0.1;
+  double chance = std::pow(1.0 - share, count); // of exactly `k`
+  double sum = chance;
+  int k = 0;
+  for (; k < count && sum <= doubt; ++k)
+  {
+    chance *= share / (1.0 - share) * (count - k) / (k + 1.0);
+    sum += chance;
+  }
+  return k - 1;
+}
+
 StepChoice choose_step(Marcher& marcher,
   const Scene& scene,
   double tolerance,
   int threads,
-  const MarchSettings& base)
+  const MarchSettings& base,
+  double beyond,
+  int edge)
 {
   // Shadow rays would be dear here, and what bends in a light volume bends for them.
   MarchSettings cheap = base;
@@ -281,11 +300,22 @@ StepChoice choose_step(Marcher& marcher,
     cheap.shadow_step = 0.0;
     cheap.precise_shadows = true;
   }
-  Probe probe(marcher, scene, tolerance, threads, cheap);
+  Probe probe(marcher, scene, tolerance, threads, cheap, edge);
   StepChoice choice;
   // In voxel edges. Light from one side bends where matter alone does not.
   const bool lit = is_lit(scene);
-  const double least = lit && tolerance < sharpest_below ? shortest_lit : shortest;
+  const double least = beyond > 0.0                      ? shortest_of_share
+                       : lit && tolerance < sharpest_below ? shortest_lit
+                                                           : shortest;
+  const int passed_over = std::max(beyond > 0.0 ? credible_count(edge * edge, beyond) : 0, 0);
+  const double margin = beyond > 0.0 ? 1.0 : unseen;
+  // The largest that counts.
+  const auto counting = [passed_over](std::vector<double> errors)
+  {
+    std::nth_element(errors.begin(), errors.begin() + passed_over, errors.end(), std::greater<>());
+    return errors[static_cast<std::size_t>(passed_over)];
+  };
+  double last_change = 0.0; // by the halving before
   double step = lit ? longest_lit : longest;
   Film longer = probe.march(StepRule::Midpoint, step);
   Film shorter;
@@ -295,11 +325,19 @@ StepChoice choose_step(Marcher& marcher,
   {
     shorter = probe.march(StepRule::Midpoint, 0.5 * step);
     std::vector<double> errors = probe.changes(longer, shorter);
+    double rest = 4.0 / 3.0; // all halvings to come, by this one
+    const double change = counting(errors);
+    if (beyond > 0.0 && last_change > 0.0 && change > 0.0)
+    {
+      const double falls = std::clamp(last_change / change, 1.5, 4.0);
+      rest = falls / (falls - 1.0);
+    }
+    last_change = change;
     for (double& error : errors)
     {
-      error *= 4.0 / 3.0;
+      error *= rest;
     }
-    choice.estimated_error = unseen * *std::max_element(errors.begin(), errors.end());
+    choice.estimated_error = margin * rest * change;
     if (step_of_most == 0.0 && quantile(errors, most_rays) <= tolerance)
     {
       step_of_most = step;
@@ -339,7 +377,7 @@ StepChoice choose_step(Marcher& marcher,
   {
     const double other = cost_of_integrated * step;
     const double error =
-      unseen * probe.change(probe.march(StepRule::Integrated, other), shorter);
+      margin * counting(probe.changes(probe.march(StepRule::Integrated, other), shorter));
     if (error < choice.estimated_error && (error <= tolerance || !choice.met))
     {
       choice.rule = StepRule::Integrated;

@@ -63,11 +63,26 @@ struct StepChoice
 ///
 /// `base` tells how shadows are made and what is left out. The marcher's caches are brought up to date
 /// for the scene, and used.
+///
+/// `edge` × `edge` rays are looked at in place of 4096: for pictures that have not many more.
+///
+/// `beyond` is the share of pixels that may have a larger error than the tolerance, in [0, 1). Above 0
+/// the error that counts is the one that so many of the rays exceed that, were the share larger,
+/// fewer would in one of ten cases; nothing is added for rays that were not looked at; steps may go
+/// down to 1/256 voxel edge; and where errors fall more slowly than with the square of the step, as
+/// across sharp surfaces, they are taken to go on like that.
 StepChoice choose_step(Marcher& marcher,
   const Scene& scene,
   double tolerance,
   int threads = 0,
-  const MarchSettings& base = {});
+  const MarchSettings& base = {},
+  double beyond = 0.0,
+  int edge = 64);
+
+/// How many of `count` independent draws may fall into a part that is allowed a share of them: so few
+/// that, were its share larger, as few or fewer would in no more than one of ten cases. −1 where not
+/// even none tells that.
+int credible_count(int count, double share);
 
 /// The smallest edge of a voxel of any of the volumes, in the data's units.
 double smallest_voxel_edge(const Scene& scene);
