@@ -104,7 +104,8 @@ double CostMeasure::expected(const std::vector<Job>& jobs, const Job& job) const
   {
     // By the nearest effort below.
     if (other.done && other.setting.point.skipped.empty() && other.knob == job.knob &&
-      other.setting.point.mapper == job.setting.point.mapper && other.setting.effort > effort &&
+      other.setting.point.mapper == job.setting.point.mapper &&
+      (other.setting.point.asked_seconds > 0.0) == (job.setting.point.asked_seconds > 0.0) && other.setting.effort > effort &&
       other.setting.effort <= job.setting.effort)
     {
       effort = other.setting.effort;
