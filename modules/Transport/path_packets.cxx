@@ -120,7 +120,8 @@ private:
   void aim(Mask mask, const Vec3<Real>& heading, Real left)
   {
     Heading = choose(mask, heading, Heading);
-    const Vec3<Real> along = multiply(Scene.index_from_world, 3, heading);
+    const Vec3<Real> whole = multiply(Scene.index_from_world, 3, heading);
+    const Vec3<Real> along{ or_zero(whole.x), or_zero(whole.y), or_zero(whole.z) };
     const Vec3<Real> data = multiply(Scene.data_from_index, 3, along);
     Along = choose(mask, along, Along);
     Scale = select(mask, hn::Sqrt(dot(data, data)), Scale);
@@ -137,6 +138,8 @@ private:
     Collided = hn::AndNot(mask, Collided);
     Gone = hn::AndNot(mask, Gone);
   }
+  /// 0 for what has no inverse.
+  static Real or_zero(Real x) { return hn::IfThenElseZero(hn::Abs(x) > real(1e-30f), x); }
   /// +infinity for 0.
   static Real inverse_of(Real x)
   {
@@ -251,7 +254,11 @@ private:
     return words;
   }
 
-  static Real free_path(Word word) { return hn::Neg(hn::Log(float_tag, uniform(word))); }
+  /// −ln(1 − u), which keeps the digits of short ways.
+  static Real free_path(Word word)
+  {
+    return hn::Neg(hn::Log1p(float_tag, hn::Neg(uniform(word))));
+  }
 
   /// A voxel beside the place along an axis, and what is left of u.
   Int pick(Real place, Real& u, int axis) const

@@ -62,11 +62,14 @@ HWY_INLINE Words random_block(Words counter, std::uint32_t seed)
   return counter;
 }
 
-/// The middle of one of 2²⁴ equal parts of [0, 1], but for the last of them: never 0, never 1.
+/// The middle of one of 2³² equal parts of [0, 1], rounded, but for the last of them: never 0, never 1.
 HWY_INLINE Real uniform(Word word)
 {
-  const Real part = hn::ConvertTo(float_tag, hn::BitCast(int_tag, hn::ShiftRight<8>(word)));
-  return hn::Min(hn::MulAdd(part, real(0x1p-24f), real(0x1p-25f)), real(1.0f - 0x1p-24f));
+  const auto part = [](Word bits) { return hn::ConvertTo(float_tag, hn::BitCast(int_tag, bits)); };
+  const Real coarse = part(hn::ShiftRight<8>(word)) * real(0x1p-24f);
+  const Real fine = part(hn::And(word, hn::Set(word_tag, 0xFFu)));
+  const Real sum = coarse + hn::MulAdd(fine, real(0x1p-32f), real(0x1p-33f));
+  return hn::Min(sum, real(1.0f - 0x1p-24f));
 }
 
 }

@@ -33,6 +33,40 @@ glm::dvec3 passing(double depth, const glm::dvec3& channels)
            : glm::exp(-depth * channels);
 }
 
+/// Whether places and rates in single precision are as good as in double: grids so wide that a voxel's
+/// fraction has eight bits left, lengths that are near the ends of its range, and collisions so
+/// close that places cannot be told apart are not.
+bool suits_single_precision(const PathMatter& matter)
+{
+  constexpr int widest = 1 << 15;
+  constexpr double extreme = 1e15;
+  const Grid& grid = matter.volume().grid;
+  glm::dvec3 box;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (grid.dims[axis] > widest)
+    {
+      return false;
+    }
+    box[axis] = grid.upper(axis) - grid.lower(axis);
+  }
+  const glm::dmat3 index_from_world(matter.index_from_world());
+  for (const glm::dmat3& m : { index_from_world, matter.data_from_index() * index_from_world })
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double norm = glm::length(m[axis]);
+      if (!(norm > 1.0 / extreme && norm < extreme))
+      {
+        return false;
+      }
+    }
+  }
+  const std::vector<double>& rates = matter.bricks().rate;
+  const double rate = rates.empty() ? 0.0 : *std::max_element(rates.begin(), rates.end());
+  return rate * glm::length(matter.data_from_index() * box) * 0x1p-24 < 0.1;
+}
+
 }
 
 /// Tentative collisions of one matter along a ray: a Poisson process whose rate is constant in each
@@ -161,7 +195,8 @@ void PathScene::find_packets()
   }
   const PathMatter& matter = *this->Matter.front();
   const Volume& volume = matter.volume();
-  if (!matter.has_voxels() || matter.is_cut() || matter.emits())
+  if (!matter.has_voxels() || matter.is_cut() || matter.emits() || !matter.scatters() ||
+      !suits_single_precision(matter))
   {
     return;
   }

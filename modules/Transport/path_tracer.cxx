@@ -227,6 +227,11 @@ PathStatistics PathTracer::render(const Scene& scene,
   const PathScene paths(scene, settings.most_scatterings, settings.environment);
   statistics.threads = settings.threads > 0 ? settings.threads : tbb::info::default_concurrency();
   statistics.non_finite_voxels = paths.non_finite_voxels();
+  if (paths.packets())
+  {
+    const std::string targets = simd_targets();
+    statistics.simd = targets.substr(0, targets.find(' '));
+  }
   if (!settings.resume || !kept.fits(film))
   {
     kept.begin(film);

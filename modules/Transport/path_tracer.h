@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <string>
 
 namespace brume
 {
@@ -74,6 +75,7 @@ struct PathStatistics
   /// Root mean square of the standard errors, over pixels and channels.
   double rms_error = std::numeric_limits<double>::infinity();
   int threads = 0;
+  std::string simd = "none"; ///< the instruction set, where paths were traced in packets: SSE4, AVX2, …
   std::size_t non_finite_voxels = 0;
   bool completed = false; ///< false when aborted; the film then holds what there was
 };
