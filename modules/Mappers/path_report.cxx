@@ -123,7 +123,7 @@ nlohmann::json statistics_of(const Scene& scene,
   statistics["scatterings"] = paths.scatterings;
   statistics["shadow_rays"] = paths.shadow_rays;
   statistics["threads"] = paths.threads;
-  statistics["simd"] = "none";
+  statistics["simd"] = paths.simd;
   statistics["seed"] = settings.seed;
   statistics["maximum_scatterings"] = settings.most_scatterings;
   statistics["blend_mode"] = blend_mode_name(scene.blend_mode);

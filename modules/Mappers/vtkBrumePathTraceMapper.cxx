@@ -63,6 +63,7 @@ bool vtkBrumePathTraceMapper::RenderScene(brume::Scene& scene, brume::Film& film
     settings.samples_per_pixel =
       before + std::min(this->SamplesPerRender, std::max(this->SamplesPerPixel - before, 0));
     settings.samples_per_pixel = std::max(settings.samples_per_pixel, 1);
+    settings.tolerance = 0.0;
   }
   else
   {

@@ -15,7 +15,8 @@
  * Each pixel is the mean of many paths through its centre, which scatter where chance has them
  * collide with matter (null-collision tracking with bounds brick by brick), look for a light there,
  * and go on by the phase function until they leave the matter. The expectation is the solution of the
- * radiative transfer equation: nothing is approximated, clamped or cut off. What is left is noise,
+ * radiative transfer equation: nothing is clamped or cut off, but for what fog
+ * without bounds needs (docs/theory/paths.md). What is left is noise,
  * and the film's error plane tells how much: three standard errors a pixel. docs/theory/paths.md has
  * the derivations.
  *
@@ -62,8 +63,9 @@ public:
    * For windows: paths through each pixel that one render adds to those of the renders before it, up
    * to SamplesPerPixel. While nothing changes, neither the camera nor the scene nor the picture's
    * size, each Render() of the window brings a picture with less noise, after n renders bit for bit
-   * the one of n times as many samples; the first one after a change begins anew. Tolerance and
-   * TimeBudget end a render, too, and later ones go on. Default 0: off, each render makes the
+   * the one of n times as many samples; the first one after a change begins anew.
+   * TimeBudget ends a render, too, and later ones go on; Tolerance ends none, and the statistics tell
+   * when it is met. Default 0: off, each render makes the
    * whole picture by itself. Range 0 to VTK_INT_MAX; values outside are clamped.
    *
    * @code

@@ -15,8 +15,10 @@ namespace
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Transport depths between the floor and what is over it.
+/// Transport depths between the floor and what is over it, in light that is even along the ground,
+/// and beside lamps and volumes.
 constexpr double floor_depth = 16.0;
+constexpr double local_floor_depth = 64.0;
 
 double mean_cosine(const std::vector<PhaseLobe>& lobes)
 {
@@ -72,14 +74,16 @@ PathFog::PathFog(const Scene& scene, int most_scatterings)
 {
   const auto lower = [this](const glm::dvec3& place)
   { this->Lowest = std::min(this->Lowest, glm::dot(place, this->Up) - this->BaseHeight); };
+  bool local = !scene.volumes.empty();
   bool from_infinity = shines(scene.sky.radiance) || shines(scene.sky.ground);
   for (const Light& light : scene.lights)
   {
-    if (light.positional)
+    if (light.positional && shines(light.diffuse))
     {
+      local = true;
       lower(light.position);
     }
-    else
+    else if (!light.positional)
     {
       from_infinity |= shines(light.diffuse);
     }
@@ -110,7 +114,7 @@ PathFog::PathFog(const Scene& scene, int most_scatterings)
   if (this->HasFloor)
   {
     const double forward = std::max(mean_cosine(scene.fog.lobes), 0.0);
-    this->Added = floor_depth * this->Falloff / (clearest * (1.0 - forward));
+    this->Added = (local ? local_floor_depth : floor_depth) * this->Falloff / (clearest * (1.0 - forward));
   }
 }
 

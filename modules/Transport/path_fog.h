@@ -18,7 +18,10 @@ namespace brume
 /// Conservative fog with falloff thickens downward without end, and paths in it would collide
 /// endlessly on average. Light that comes down to where nothing is any more returns: far enough
 /// below everything, such fog is replaced by a white matt floor. In a conservative half-space light
-/// becomes even with depth as e^(−τ (1 − g)), and the floor is 16 of these below, an error of 10⁻⁷.
+/// becomes even with depth as e^(−τ (1 − g)), and the floor is 16 of these below, an error of 10⁻⁷ under light that is even along
+/// the ground. Beside lamps and volumes light would also return elsewhere than where it came down: there
+/// the floor is 64 below, and the error is of the order of r / √(r² + 128²) of the light that comes so
+/// deep, r transport lengths away.
 class PathFog
 {
 public:

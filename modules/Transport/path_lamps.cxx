@@ -50,13 +50,17 @@ LampPlace NearLamp::on_ray(const glm::dvec3& begin,
   {
     return result;
   }
-  const double first = std::atan((from - foot) / away);
-  const double last = std::atan((to - foot) / away);
-  const double off = away * std::tan(first + random.uniform() * (last - first));
+  // The angle at the lamp between both ends, and the tangent of the sum of the first end's and a part
+  // of it, without differences of angles that are all but the same: a lamp may lie on the ray's line.
+  const double first = from - foot;
+  const double last = to - foot;
+  const double angle = std::atan2(away * (last - first), away * away + first * last);
+  const double turn = std::tan(random.uniform() * angle);
+  const double off = away * (first + away * turn) / (away - first * turn);
   result.way = std::clamp(foot + off, from, to);
   result.along = along;
   result.place = begin + result.way * along;
-  result.weight = (last - first) * (away * away + off * off) / away;
+  result.weight = angle * (away * away + off * off) / away;
   return result;
 }
 

@@ -108,12 +108,13 @@ double PathScene::near_radius(const Lamp& lamp) const
 glm::dvec3 PathScene::scattered(const glm::dvec3& place,
   const glm::dvec3& along,
   const glm::dvec3& toward,
+  bool with_volumes,
   Path& path) const
 {
   glm::dvec3 sum(0.0);
   for (const auto& matter : this->Matter)
   {
-    if (!matter->scatters())
+    if (!with_volumes || !matter->scatters())
     {
       continue;
     }
@@ -159,7 +160,8 @@ glm::dvec3 PathScene::clearance(const glm::dvec3& begin,
 }
 
 /// What a lamp sends on at a place that was drawn, seen from where the way to it begins.
-glm::dvec3 PathScene::lit_at(const NearLamp& near, const LampPlace& at, Path& path) const
+glm::dvec3 PathScene::lit_at(
+  const NearLamp& near, const LampPlace& at, bool with_volumes, Path& path) const
 {
   if (!(at.weight > 0.0))
   {
@@ -171,7 +173,7 @@ glm::dvec3 PathScene::lit_at(const NearLamp& near, const LampPlace& at, Path& pa
   glm::dvec3 light = at.weight * lamp.irradiance(offset);
   if (largest(light) > 0.0)
   {
-    light *= this->scattered(at.place, at.along, toward, path);
+    light *= this->scattered(at.place, at.along, toward, with_volumes, path);
   }
   if (largest(light) > 0.0)
   {
@@ -191,7 +193,10 @@ glm::dvec3 PathScene::near_on_ray(const Sight& sight, Path& path) const
   {
     const double length = this->Fog ? sight.fog_before + sight.fog_length : sight.length;
     const LampPlace at = near.on_ray(origin, sight.along, length, path.random);
-    glm::dvec3 light = this->lit_at(near, at, path);
+    // Volumes are drawn from the near plane on, and to what is opaque; fog from the eye.
+    const double way = at.way - (this->Fog ? sight.fog_before : 0.0);
+    const bool with_volumes = way >= 0.0 && way <= sight.length;
+    glm::dvec3 light = this->lit_at(near, at, with_volumes, path);
     if (largest(light) > 0.0)
     {
       ++path.counts.shadow_rays;
@@ -242,7 +247,7 @@ glm::dvec3 PathScene::near_from(const glm::dvec3& place,
     return glm::dvec3(0.0);
   }
   const LampPlace at = chosen->from_place(place, along, phase, path.random);
-  glm::dvec3 light = this->lit_at(*chosen, at, path);
+  glm::dvec3 light = this->lit_at(*chosen, at, true, path);
   if (largest(light) > 0.0)
   {
     ++path.counts.shadow_rays;

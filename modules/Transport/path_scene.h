@@ -100,9 +100,11 @@ private:
   glm::dvec3 scattered(const glm::dvec3& place,
     const glm::dvec3& along,
     const glm::dvec3& toward,
+    bool with_volumes,
     Path& path) const;
   double near_radius(const Lamp& lamp) const;
-  glm::dvec3 lit_at(const NearLamp& near, const LampPlace& at, Path& path) const;
+  glm::dvec3 lit_at(
+    const NearLamp& near, const LampPlace& at, bool with_volumes, Path& path) const;
   glm::dvec3 near_on_ray(const Sight& sight, Path& path) const;
   glm::dvec3 near_from(const glm::dvec3& place,
     const glm::dvec3& along,

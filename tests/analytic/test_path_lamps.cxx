@@ -194,3 +194,70 @@ TEST(PathLamps, OneScatteringIsTheReferences)
   EXPECT_LE(std::abs(sum) / std::sqrt(variance), 4.0);
   EXPECT_LE(squares / count, 1.5);
 }
+
+namespace
+{
+
+/// A lamp in the eye or a way in front of it, and a box of matter around both; the near plane is 1
+/// or more away.
+struct Headlight
+{
+  Voxels<float> voxels{ 21, 21, 21, [](int, int, int) { return 1.0f; } };
+  Scene scene;
+
+  Headlight(double near_plane, double aside, double in_front)
+  {
+    Volume& volume = this->scene.volumes[0];
+    volume.grid = this->voxels.grid();
+    volume.data_from_index = placed(glm::dvec3(1.0), glm::dvec3(-10.0));
+    volume.meaning = ValueMeaning::Density;
+    volume.density.extinction = 0.05;
+    volume.medium.lit = true;
+    View view;
+    view.centre = glm::dvec3(0.0, 0.0, -5.0);
+    view.distance = 5.0;
+    view.half_height = 1.0;
+    view.near_plane = near_plane;
+    view.far_plane = 40.0;
+    this->scene.camera = view.camera(1.0);
+    Light lamp;
+    lamp.positional = true;
+    lamp.attenuation = glm::dvec3(0.0, 0.0, 1.0);
+    lamp.position = glm::dvec3(aside, 0.0, -in_front);
+    this->scene.lights = { lamp };
+  }
+  Mean mean(int samples)
+  {
+    PathSettings settings;
+    settings.samples_per_pixel = samples;
+    settings.most_scatterings = 1;
+    return mean_of(traced(this->scene, settings, 16, 16));
+  }
+};
+
+void expect_same(const Mean& a, const Mean& b)
+{
+  EXPECT_GT(a.value.x, 0.0);
+  EXPECT_NEAR(a.value.x, b.value.x, 4.0 * std::hypot(a.error.x, b.error.x));
+  EXPECT_LE(std::hypot(a.error.x, b.error.x), 0.02 * b.value.x);
+}
+
+}
+
+// Rays that come straight from the lamp see what rays beside it see.
+TEST(PathLamps, MayBeInTheEye)
+{
+  expect_same(Headlight(1.0, 0.0, 0.0).mean(200), Headlight(1.0, 1e-3, 0.0).mean(200));
+}
+
+// Of a volume nothing is drawn in front of the near plane, lit as brightly as it may be there; all
+// but no fog changes nothing of that.
+TEST(PathLamps, LightNothingInFrontOfTheNearPlane)
+{
+  Headlight plain(6.0, 0.0, 2.0);
+  Headlight foggy(6.0, 0.0, 2.0);
+  foggy.scene.fog.enabled = true;
+  foggy.scene.fog.extinction = glm::dvec3(1e-9);
+  foggy.scene.fog.falloff = 0.1;
+  expect_same(foggy.mean(4000), plain.mean(200));
+}
