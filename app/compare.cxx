@@ -63,7 +63,7 @@ std::vector<MapperName> wanted_mappers(const Options& options)
     {
       throw Failure("--mappers " + name, "it is named twice", "name each once", BadCall);
     }
-    if (mapper.kind == MapperKind::PathTrace || mapper.kind == MapperKind::Smart)
+    if (mapper.kind == MapperKind::Smart)
     {
       throw Failure("--mappers " + name, "compare does not measure it yet",
         "draw it with brume render --mapper " + name, BadCall);
@@ -122,7 +122,12 @@ void run(const Options& options)
 {
   const std::vector<MapperName> wanted = wanted_mappers(options);
   check(options.scene);
-  refuse_paths(options.scene, "leave it out");
+  const bool paths = std::any_of(wanted.begin(), wanted.end(),
+    [](const MapperName& mapper) { return mapper.kind == MapperKind::PathTrace; });
+  if (!paths)
+  {
+    refuse_paths(options.scene, "add pathtrace to --mappers, or leave it out");
+  }
   if (!options.scene.preset.empty())
   {
     find_preset(options.scene.preset);
@@ -139,7 +144,8 @@ void run(const Options& options)
   comparison.exposure = options.display.exposure;
   comparison.display_curve =
     options.display.curve == "srgb" ? DisplayCurve::Srgb : DisplayCurve::Identity;
-  ComparisonMeasure measure(scene, step, options.repetitions);
+  ComparisonMeasure measure(scene, step, options.repetitions,
+    paths && not_drawn_by(options.scene.modes, MapperKind::PathTrace).empty());
   comparison.truth = measure.measure_truth();
 
   std::optional<PrivateDisplay> display;
@@ -147,7 +153,7 @@ void run(const Options& options)
   {
     InterruptionWatch::check("compare");
     std::string cannot = not_drawn_by(options.scene.modes, mapper.kind);
-    if (cannot.empty() && mapper.kind != MapperKind::RayMarch)
+    if (cannot.empty() && !is_own(mapper.kind))
     {
       cannot = not_drawn_by_stock(options.scene, scene.input);
       if (cannot.empty() && !display)
@@ -210,7 +216,7 @@ void add_compare(CLI::App& program)
     ->type_name("DIR");
   command
     ->add_option("--mappers", options->mappers,
-      "Which, separated by commas: raymarch, vtk-fixed-point, vtk-gpu [all]")
+      "Which, separated by commas: raymarch, vtk-fixed-point, vtk-gpu, pathtrace [all but pathtrace]")
     ->delimiter(',')
     ->type_name("M[,M]");
   command

@@ -1,6 +1,7 @@
 #include "compare_measure.h"
 
 #include "command.h"
+#include "cost_paths.h"
 #include "interruption.h"
 #include "progress.h"
 #include "render_timing.h"
@@ -55,7 +56,8 @@ Picture ComparisonMeasure::over_stock(const Film& film) const
   return { film.width, film.height, over_scene(film, this->Scene, this->StockSurfaces) };
 }
 
-ComparisonMeasure::ComparisonMeasure(const VolumeScene& scene, double step, int repetitions)
+ComparisonMeasure::ComparisonMeasure(
+  const VolumeScene& scene, double step, int repetitions, bool paths)
   : Scene(scene)
   , LeftOut(left_out_by_stock(scene.options))
   , March(scene, "compare")
@@ -68,6 +70,10 @@ ComparisonMeasure::ComparisonMeasure(const VolumeScene& scene, double step, int 
     set_up(this->Stock, this->StockMapper);
   }
   simulate_as_asked(this->March, step);
+  if (paths)
+  {
+    this->Paths = std::make_unique<ComparePaths>(scene, this->March.surfaces());
+  }
   this->StockSurfaces =
     this->Stock.volume && scene.sky ? draw_meshes(this->Stock) : this->March.surfaces();
   this->StockMapper->SetSurfaceDepth(this->StockSurfaces.depth);
@@ -89,12 +95,38 @@ ComparisonMeasure::~ComparisonMeasure()
 Truth ComparisonMeasure::measure_truth()
 {
   Truth truth = this->plain() ? truth_by_quadrature(this->March).truth
-                              : truth_by_march(this->March, this->Step).truth;
+    : this->Paths && is_truth_by_paths(this->Scene)
+    ? this->truth_by_paths()
+    : truth_by_march(this->March, this->Step).truth;
   this->TruePicture = truth.picture;
   if (this->plain())
   {
     this->StockTruth = truth.picture;
   }
+  return truth;
+}
+
+Truth ComparisonMeasure::truth_by_paths()
+{
+  std::string text;
+  const Film film = this->Paths->truth(text);
+  this->March.take_volume();
+  const auto statistics = nlohmann::json::parse(text);
+  const int scatterings = statistics["maximum_scatterings"];
+  // Of errors that are normally distributed the mean size is √(2/π) of the root mean square.
+  constexpr double mean_of_rms = 0.79788456;
+  Truth truth;
+  truth.method = "Brume's path tracer, without bias: " +
+    (scatterings > 0 ? "up to " + std::to_string(scatterings) : std::string("any number of")) +
+    " scatterings, " + std::to_string(statistics["samples_per_pixel"].get<int>()) +
+    " paths through each pixel. Its error is noise, by its own estimate: the mean, and what 99.9 % of "
+    "pixels are expected to be below.";
+  truth.remaining_mean =
+    statistics["rms_error"].is_null() ? 0.0 : mean_of_rms * statistics["rms_error"].get<double>();
+  truth.remaining_largest =
+    statistics["estimated_error"].is_null() ? 0.0 : statistics["estimated_error"].get<double>();
+  truth.seconds = statistics["seconds"];
+  truth.picture = this->March.over(film);
   return truth;
 }
 
@@ -129,6 +161,10 @@ ComparisonEntry ComparisonMeasure::measure(const MapperName& mapper)
   {
     this->measure_ray_march(entry);
   }
+  else if (mapper.kind == MapperKind::PathTrace)
+  {
+    this->measure_paths(entry);
+  }
   else
   {
     this->measure_stock(entry, mapper.kind);
@@ -161,6 +197,30 @@ void ComparisonMeasure::measure_ray_march(ComparisonEntry& entry)
   this->Films["raymarch"] = film;
 
   this->find_causes(entry);
+}
+
+void ComparisonMeasure::measure_paths(ComparisonEntry& entry)
+{
+  Film film;
+  nlohmann::json statistics;
+  entry.timing = time_renders(this->Repetitions, "compare",
+    [&]
+    {
+      std::string text;
+      film = this->Paths->draw(0, text);
+      statistics = nlohmann::json::parse(text);
+      return statistics["seconds"].get<double>();
+    });
+  entry.timing.prepare = statistics["seconds_prepare"];
+  entry.statistics = statistics.dump(2);
+  entry.picture = this->March.over(film);
+  this->Films["pathtrace"] = film;
+  std::string text;
+  const Film other = this->Paths->draw(1, text);
+  entry.contributions.push_back({ "noise",
+    "The picture against another one of other random numbers: √2 of the noise of one.",
+    brume::measure(entry.picture, this->March.over(other)) });
+  this->March.take_volume();
 }
 
 void ComparisonMeasure::find_causes(ComparisonEntry& entry)

@@ -1,6 +1,7 @@
 // Drawing, timing and measuring the mappers of a comparison.
 #pragma once
 
+#include "compare_paths.h"
 #include "mapper_names.h"
 #include "scene_march.h"
 
@@ -11,6 +12,7 @@
 #include "vtkNew.h"
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,8 +26,9 @@ namespace brume::app
 class ComparisonMeasure
 {
 public:
-  /// `step` in world units, `repetitions` timed renders of each mapper. The scene must outlive it.
-  ComparisonMeasure(const VolumeScene& scene, double step, int repetitions);
+  /// `step` in world units, `repetitions` timed renders of each mapper. `paths`: the path tracer takes
+  /// part, and is then the truth of what scatters light. The scene must outlive it.
+  ComparisonMeasure(const VolumeScene& scene, double step, int repetitions, bool paths = false);
   ~ComparisonMeasure();
 
   /// Computes the truth. To be called first.
@@ -42,7 +45,9 @@ public:
   const std::string& simd() const { return this->Simd; }
 
 private:
+  Truth truth_by_paths();
   void measure_ray_march(ComparisonEntry& entry);
+  void measure_paths(ComparisonEntry& entry);
   void measure_stock(ComparisonEntry& entry, MapperKind kind);
   /// Where the ray march's error comes from: from the step, of what only absorbs and emits, or from
   /// the shadows, of what is lit.
@@ -58,6 +63,7 @@ private:
   VolumeScene Stock;                ///< what of the scene VTK's own mappers know
   std::vector<std::string> LeftOut; ///< what they do not
   SceneMarch March;
+  std::unique_ptr<ComparePaths> Paths; ///< null: they take no part
   SurfacePicture StockSurfaces; ///< in the light that VTK's own mappers know
   double Step;
   int Repetitions;

@@ -11,6 +11,7 @@
 #include "vtkBrumeMedium.h"
 #include "vtkBrumePathTraceMapper.h"
 #include "vtkBrumeSky.h"
+#include "vtkBrumeSmartVolumeMapper.h"
 #include "vtkBrumeSparseVolume.h"
 
 #include "vtkCamera.h"
@@ -45,6 +46,14 @@ std::string part(double value)
   {
     out << value;
   }
+  return out.str();
+}
+
+/// "0.064".
+std::string decimal(double value)
+{
+  std::ostringstream out;
+  out << value;
   return out.str();
 }
 
@@ -133,7 +142,7 @@ CostKnob tolerance_knob(CostScene& scene)
   {
     choice.tolerance = tolerance;
     knob.settings.push_back(
-      march_setting("tolerance", part(tolerance), effort, scene.march(), choice));
+      march_setting("tolerance", decimal(tolerance), effort, scene.march(), choice));
     effort *= 2.0;
   }
   return knob;
@@ -319,6 +328,50 @@ CostKnob resolution_knob(CostScene& scene)
   return knob;
 }
 
+CostKnob smart_knob(CostScene& scene)
+{
+  CostKnob knob;
+  knob.knob = { "smart", "chosen for",
+    "Method and settings chosen by vtkBrumeSmartVolumeMapper for an error of 99.9 % of the pixels, or for a time "
+    "(preparations counted).",
+    "" };
+  knob.has_finest = false;
+  knob.knob.skipped = scene.wants("smart") ? not_drawn_by(scene.scene().options.modes, MapperKind::Smart)
+                                           : "smart is not among --mappers";
+  if (!knob.knob.skipped.empty())
+  {
+    return knob;
+  }
+  const auto add = [&](const std::string& words, double tolerance, double seconds)
+  {
+    CostSetting setting;
+    setting.point.knob = "smart";
+    setting.point.setting = words;
+    setting.point.settings =
+      Json{ { "tolerance", tolerance }, { "time_budget", seconds } }.dump();
+    setting.point.mapper = "smart";
+    setting.point.by_chance = scene.TruthByPaths;
+    setting.point.asked_tolerance = tolerance;
+    setting.point.asked_seconds = seconds;
+    setting.effort = tolerance > 0.0 ? std::sqrt(1.0 / tolerance) : seconds;
+    setting.draw = [&scene, tolerance, seconds](const Watch& watch)
+    {
+      return tolerance > 0.0 ? scene.smart().within(tolerance, watch)
+                             : scene.smart().of_time(seconds, watch);
+    };
+    knob.settings.push_back(setting);
+  };
+  for (const double seconds : { 0.2, 1.0, 5.0 })
+  {
+    add(decimal(seconds) + " s", 0.0, seconds);
+  }
+  for (const double tolerance : study_tolerances)
+  {
+    add("tolerance " + decimal(tolerance), tolerance, 0.0);
+  }
+  return knob;
+}
+
 CostKnob stock_knob(CostScene& scene)
 {
   CostKnob knob;
@@ -403,7 +456,7 @@ const std::vector<NamedKnob>& named_knobs()
     { "tolerance", true, tolerance_knob }, { "precision", true, voxel_knob },
     { "shadows", true, shadow_knob }, { "octaves", true, octave_knob },
     { "ambient", true, ambient_knob }, { "resolution", true, resolution_knob },
-    { "paths", false, path_knob }, { "stock", false, stock_knob } };
+    { "paths", false, path_knob }, { "smart", false, smart_knob }, { "stock", false, stock_knob } };
   return knobs;
 }
 
@@ -442,14 +495,15 @@ CostKnob make_knob(const std::string& name, CostScene& scene)
   return {};
 }
 
-CostKnob make_combined_knob(CostScene& scene, int octaves)
+CostKnob make_combined_knob(CostScene& scene, StepRule rule, int octaves)
 {
   CostKnob knob;
   knob.knob = { "combined", "combined",
     "Several knobs at once, from coarse to fine: resolution, step, " +
       std::string(is_lit(scene) ? "the distance between the nodes of the shadow volume, and " +
-            std::to_string(octaves) + (octaves > 1 ? " octaves" : " octave")
-                                : "rule") +
+            std::to_string(octaves) + (octaves > 1 ? " octaves" : " octave") +
+            ", the rule of steps that erred least"
+                                : std::string("the rule of steps that erred least")) +
       ".",
     "" };
   knob.has_finest = false;
@@ -465,8 +519,7 @@ CostKnob make_combined_knob(CostScene& scene, int octaves)
   };
   MarchChoice choice = scene.march().standard();
   choice.octaves = octaves;
-  const bool integrated = scene.march().follows(StepRule::Integrated);
-  choice.rule = integrated ? StepRule::Integrated : StepRule::Midpoint;
+  choice.rule = rule;
   for (const Combination& c : { Combination{ 4, 4.0 }, Combination{ 2, 4.0 }, Combination{ 2, 2.0 },
          Combination{ 1, 4.0 }, Combination{ 1, 2.0 }, Combination{ 1, 1.0 } })
   {

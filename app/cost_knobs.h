@@ -4,6 +4,7 @@
 #include "cost_march.h"
 #include "cost_paths.h"
 #include "cost_setting.h"
+#include "cost_smart.h"
 #include "cost_voxels.h"
 
 #include <memory>
@@ -30,6 +31,7 @@ public:
   const VolumeScene& scene() const { return this->Scene; }
   CostMarch& march() { return this->March; }
   CostPaths& paths();
+  CostSmart& smart();
   /// Whether the truth holds all scatterings.
   bool TruthByPaths = false;
   /// Mappers by name that are asked for; empty: all.
@@ -52,6 +54,7 @@ private:
   const VolumeScene& Scene;
   CostMarch March;
   std::unique_ptr<CostPaths> Paths;
+  std::unique_ptr<CostSmart> Smart;
   std::vector<std::unique_ptr<Variant>> Variants;
   std::unique_ptr<VolumeScene> Stock;
   SurfacePicture StockSurfaces;
@@ -62,7 +65,7 @@ private:
 /// outlive the settings.
 CostKnob make_knob(const std::string& name, CostScene& scene);
 
-/// Several knobs turned at once, from coarse to fine, with this number of octaves.
-CostKnob make_combined_knob(CostScene& scene, int octaves);
+/// Several knobs turned at once, from coarse to fine, with this rule of steps and number of octaves.
+CostKnob make_combined_knob(CostScene& scene, StepRule rule, int octaves);
 
 }

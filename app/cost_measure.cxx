@@ -104,11 +104,14 @@ double CostMeasure::expected(const std::vector<Job>& jobs, const Job& job) const
   {
     // By the nearest effort below.
     if (other.done && other.setting.point.skipped.empty() && other.knob == job.knob &&
-      other.setting.point.mapper == job.setting.point.mapper && other.setting.effort > effort &&
+      other.setting.point.mapper == job.setting.point.mapper &&
+      (other.setting.point.asked_seconds > 0.0) == (job.setting.point.asked_seconds > 0.0) && other.setting.effort > effort &&
       other.setting.effort <= job.setting.effort)
     {
       effort = other.setting.effort;
-      seconds = other.first * job.setting.effort / effort;
+      // What comes before a render and after it does not grow with the effort.
+      const double render = other.setting.point.timing.median;
+      seconds = std::max(0.0, other.first - render) + render * job.setting.effort / effort;
     }
   }
   return seconds;
@@ -248,6 +251,28 @@ int CostMeasure::best_octaves() const
               : this->Scene.march().standard().octaves;
 }
 
+StepRule CostMeasure::best_rule() const
+{
+  const StudyPoint* best = nullptr;
+  for (const StudyPoint& point : this->Result.points)
+  {
+    const bool longest = point.knob == "step" && point.setting.find(" 4 voxels") != std::string::npos;
+    if (longest && point.skipped.empty() &&
+      (!best || point.errors.measured.rms < best->errors.measured.rms))
+    {
+      best = &point;
+    }
+  }
+  for (const StepRule rule : { StepRule::Integrated, StepRule::Cells })
+  {
+    if (best && best->setting.rfind(step_rule_name(rule), 0) == 0)
+    {
+      return rule;
+    }
+  }
+  return StepRule::Midpoint;
+}
+
 void CostMeasure::measure_settings()
 {
   std::vector<CostKnob> knobs;
@@ -262,7 +287,7 @@ void CostMeasure::measure_settings()
   this->run(std::move(knobs), reserve);
   if (this->wants("combined"))
   {
-    this->run({ make_combined_knob(this->Scene, this->best_octaves()) }, 0.0);
+    this->run({ make_combined_knob(this->Scene, this->best_rule(), this->best_octaves()) }, 0.0);
   }
   finish(this->Result);
   this->Clock.clear();

@@ -44,6 +44,8 @@ private:
   bool wants(const std::string& knob) const;
   /// The number of octaves with the least error of those measured; the scene's own without any.
   int best_octaves() const;
+  /// The rule of steps that erred least with long steps; midpoints without any.
+  StepRule best_rule() const;
 
   CostScene& Scene;
   CostRequest Request;

@@ -10,6 +10,7 @@
 #include "vtkBrumeMedium.h"
 #include "vtkBrumePathTraceMapper.h"
 #include "vtkBrumeSky.h"
+#include "vtkBrumeSmartVolumeMapper.h"
 #include "vtkBrumeSparseVolume.h"
 
 #include "vtkCamera.h"
@@ -45,6 +46,15 @@ CostPaths& CostScene::paths()
     this->Paths = std::make_unique<CostPaths>(this->Scene, this->March.march().surfaces());
   }
   return *this->Paths;
+}
+
+CostSmart& CostScene::smart()
+{
+  if (!this->Smart)
+  {
+    this->Smart = std::make_unique<CostSmart>(this->Scene, this->March.march().surfaces());
+  }
+  return *this->Smart;
 }
 
 bool CostScene::wants(const std::string& mapper) const

@@ -38,7 +38,7 @@ namespace
 
 /// Drawn larger and shrunk, which smooths the edges.
 constexpr int oversampling = 2;
-constexpr int letters = 15; ///< pixels of the finished picture
+constexpr int letters = 17; ///< pixels of the finished picture
 constexpr Colour ink{ 28, 31, 36 };
 constexpr Colour faint{ 120, 128, 138 };
 constexpr Colour paper{ 255, 255, 255 };
@@ -161,7 +161,7 @@ void add_knobs(vtkChartXY* chart, const Study& study, const std::vector<Spot>& s
     plot->SetInputData(table_of(of_knob), 0, 1);
     plot->SetColor(colour[0], colour[1], colour[2], 255);
     plot->SetMarkerStyle(stock ? vtkPlotPoints::CROSS : shapes[index % 3]);
-    plot->SetMarkerSize(oversampling * 9.0f);
+    plot->SetMarkerSize(oversampling * 10.0f);
     plot->SetLabel(stock ? "VTK's own mappers" : knob.title);
     index += stock ? 0 : 1;
   }
@@ -326,7 +326,7 @@ Bitmap study_chart(const Study& study, int width, int height)
   frame.across.widen();
   frame.up.widen();
 
-  constexpr int heading = 54;
+  constexpr int heading = 60;
   const int below = height - heading;
   vtkNew<vtkChartXY> chart;
   set_axis(chart->GetAxis(vtkAxis::BOTTOM), frame.across, "seconds a picture");
@@ -362,8 +362,8 @@ Bitmap study_chart(const Study& study, int width, int height)
     height - low[1] / oversampling };
   const TextStyle title{ letters + 4, true, ink };
   const TextStyle subtitle{ letters - 2, false, faint };
-  canvas.text(16, 25, fitted("What accuracy costs in time: " + study.scene.input, title, width - 32), title);
-  canvas.text(16, 45,
+  canvas.text(16, 27, fitted("What accuracy costs in time: " + study.scene.input, title, width - 32), title);
+  canvas.text(16, 50,
     fitted(std::to_string(study.scene.width) + " x " + std::to_string(study.scene.height) +
         " pixels; truth: " +
         (study.truth.kind == "paths"

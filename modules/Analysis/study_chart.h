@@ -13,6 +13,6 @@ namespace brume
 ///
 /// Drawn through OpenGL in a window that nobody sees: needs a display. Throws std::runtime_error when VTK
 /// cannot draw, std::invalid_argument for a width below 400 or a height below 300.
-VTKBRUMEANALYSIS_EXPORT Bitmap study_chart(const Study& study, int width = 1100, int height = 720);
+VTKBRUMEANALYSIS_EXPORT Bitmap study_chart(const Study& study, int width = 1100, int height = 740);
 
 }

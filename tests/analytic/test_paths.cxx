@@ -138,9 +138,11 @@ TEST(PathTracing, WhiteFurnaceShowsTheFurnace)
       // Of coloured matter a path is of one colour, and the others make do with what it finds.
       const Film film = trace(scene, 32, extinction.x == extinction.y ? 260 : 2100);
       const Mean mean = mean_of(film);
+      std::cout << "extinction " << extinction.x << ' ' << extinction.y << ' ' << extinction.z << ", g " << g << ':';
       for (int c = 0; c < 3; ++c)
       {
         const double seen = mean.value[c] + film.transmittance[c][0];
+        std::cout << ' ' << seen - 1.0 << " +- " << mean.error[c] << (c < 2 ? ',' : '\n');
         EXPECT_NEAR(seen, 1.0, most_off() * mean.error[c] + 1e-5) << extinction[c] << ", g " << g;
         EXPECT_LE(mean.error[c], 1e-3 / std::sqrt(effort()));
       }

@@ -50,6 +50,26 @@ grep -q '"step": 0.125' b/compare.json || fail "expected the step in compare.jso
 # python3 answers where a figure of compare.json is asked for.
 figure_of() { python3 -c "import json; d = json.load(open('$1/compare.json')); print($2)"; }
 
+case_ "the path tracer: a mapper, and the truth of what scatters light"
+blob ../blob.nrrd
+paths=(--mappers raymarch,pathtrace --preset cloud --sun-direction 1,0.3,0.6 --samples-per-pixel 16)
+run compare ../blob.nrrd --output out "${small[@]}" "${paths[@]}"
+expect_success
+expect_file out/{pathtrace,difference-pathtrace}.png out/pathtrace.exr
+[ "$(figure_of out "'256 paths' in d['truth']['method']")" = True ] || fail "expected a truth of 16 times 16 paths"
+# Noise: no shift, four times the truth's own, and as large as pictures of other random numbers say.
+[ "$(figure_of out "[e['errors_against_truth']['rms'] < 8 * d['truth']['remaining_mean'] / 0.8 for e in d['entries'] if e['mapper'] == 'pathtrace']")" = "[True]" ] ||
+  fail "expected errors of the size of the noise"
+[ "$(figure_of out "[abs(e['errors_against_truth']['mean_shift']) < 0.3 * e['errors_against_truth']['mean_absolute'] for e in d['entries'] if e['mapper'] == 'pathtrace']")" = "[True]" ] ||
+  fail "expected no shift"
+run compare ../blob.nrrd --output plain "${small[@]}" --mappers raymarch,pathtrace --extinction 0.5 --albedo 0
+expect_success
+[ "$(figure_of plain "'double precision' in d['truth']['method']")" = True ] ||
+  fail "expected quadrature where nothing is scattered"
+run compare ../blob.nrrd --output no "${small[@]}" --mappers raymarch --samples-per-pixel 16
+expect_status 2
+expect_error 'brume: --samples-per-pixel: .*add pathtrace to --mappers'
+
 case_ "light, media and fog: against shadow rays; VTK's mappers draw what they know"
 blob ../blob.nrrd
 lit=(--preset cloud --sun-direction 1,0.3,0.6 --sky-radiance 0.1,0.1,0.2 --fog-extinction 0.01)

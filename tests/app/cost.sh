@@ -24,7 +24,7 @@ expect_output '[-][-]study-seconds SECONDS'
 
 case_ "matter that absorbs: quadrature is the truth"
 blob ../blob.nrrd
-run cost ../blob.nrrd --output out "${small[@]}" --preset cloud --mappers raymarch,pathtrace
+run cost ../blob.nrrd --output out "${small[@]}" --preset cloud --mappers raymarch,pathtrace,smart
 expect_success
 expect_file out/cost.csv out/cost.json out/report.html
 ! grep -qE '(src|href)="(https?:|//)|url\(["'\'']?(https?:|//)' out/report.html ||
@@ -43,6 +43,9 @@ expect_output '^The truth is a quadrature in double precision'
   fail "expected the same picture of the same values as floats"
 [ "$(figure_of out "[k['skipped'] is None for k in d['knobs'] if k['name'] in ('shadows', 'octaves', 'stock')]")" = \
   "[False, False, False]" ] || fail "expected reasons for knobs that cannot be turned"
+[ "$(figure_of out "p['smart','tolerance 0.05']['asked_tolerance'], p['smart','tolerance 0.05']['errors']['within'][0]['share'] >= 0.999")" = "0.05 True" ] ||
+  fail "expected the picture for a tolerance to keep it"
+expect_output '^chosen for tolerance 0\.05: .* which keeps it'
 [ "$(figure_of out "len(d['words']) > 4")" = True ] || fail "expected words"
 # The file of commas: a line a point, of as many fields as the head, and the same figures.
 python3 - out << 'END' || fail "expected cost.csv to hold the figures of cost.json"
