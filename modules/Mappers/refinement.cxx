@@ -34,7 +34,11 @@ std::vector<double> rest_of(const Scene& scene,
   for (const Light& light : scene.lights)
   {
     rest.insert(rest.end(),
-      { light.direction.x, light.direction.y, light.direction.z, light.position.x, light.position.y,
+      { light.direction.x,
+        light.direction.y,
+        light.direction.z,
+        light.position.x,
+        light.position.y,
         light.position.z });
   }
   for (const Volume& volume : scene.volumes)

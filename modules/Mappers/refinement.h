@@ -15,8 +15,8 @@
 namespace brume
 {
 
-/// What the last picture was of. Other than SceneKey alone, nothing at all may have changed: neither
-/// the camera, nor places, nor the surfaces in front.
+/// What the last picture was of. Other than SceneKey alone, nothing at all may have changed:
+/// neither the camera, nor places, nor the surfaces in front.
 class Refinement
 {
 public:

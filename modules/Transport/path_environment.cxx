@@ -22,7 +22,8 @@ double mean(const glm::dvec3& v)
   return (v.x + v.y + v.z) / 3.0;
 }
 
-/// The first of sums above `amount`, the place within it as a fraction, and never one without power.
+/// The first of sums above `amount`, the place within it as a fraction, and never one without
+/// power.
 template <class Iterator>
 Iterator find_sum(Iterator begin, Iterator end, double amount, double& fraction)
 {
@@ -137,8 +138,8 @@ glm::dvec3 PathEnvironment::sample(RandomStream& random) const
   const auto begin = this->ColumnUpTo.begin() + static_cast<std::ptrdiff_t>(y) * width;
   const auto column =
     find_sum(begin, begin + width, random.uniform() * *(begin + width - 1), across);
-  // Evenly over the pixel's part of the sphere. What picked the row tells no more than 32 bits hold:
-  // within the row another number.
+  // Evenly over the pixel's part of the sphere. What picked the row tells no more than 32 bits
+  // hold: within the row another number.
   const double lower = edge_sine(y, height);
   const double sine =
     std::clamp(lower + random.uniform() * (edge_sine(y + 1, height) - lower), -1.0, 1.0);

@@ -19,8 +19,8 @@ namespace brume
 class PathEnvironment
 {
 public:
-  /// `map` may be null. Throws std::invalid_argument for one without pixels or with another number of
-  /// values.
+  /// `map` may be null. Throws std::invalid_argument for one without pixels or with another number
+  /// of values.
   PathEnvironment(const Sky& sky, std::shared_ptr<const PlacedEnvironment> map);
 
   /// Whether there is any light.
@@ -43,9 +43,9 @@ private:
   Sky Halves;
   std::shared_ptr<const PlacedEnvironment> Placed;
   const EnvironmentMap* Map = nullptr; ///< of it
-  std::vector<double> RowUpTo;    ///< sums of the rows' powers, from the bottom
-  std::vector<double> ColumnUpTo; ///< within each row, sums of the pixels' mean radiances
-  double SkyPower = 0.0;          ///< mean radiance times solid angle
+  std::vector<double> RowUpTo;         ///< sums of the rows' powers, from the bottom
+  std::vector<double> ColumnUpTo;      ///< within each row, sums of the pixels' mean radiances
+  double SkyPower = 0.0;               ///< mean radiance times solid angle
   double GroundPower = 0.0;
   double Power = 0.0; ///< of all
 };

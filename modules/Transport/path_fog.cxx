@@ -25,8 +25,8 @@ double mean_cosine(const std::vector<PhaseLobe>& lobes)
   for (const PhaseLobe& lobe : lobes)
   {
     const double weight = std::max(lobe.weight, 0.0);
-    const bool has_one = lobe.function == PhaseFunction::HenyeyGreenstein ||
-                         lobe.function == PhaseFunction::Schlick;
+    const bool has_one =
+      lobe.function == PhaseFunction::HenyeyGreenstein || lobe.function == PhaseFunction::Schlick;
     sum += has_one ? weight * std::clamp(lobe.anisotropy, -most_anisotropy, most_anisotropy) : 0.0;
     weights += weight;
   }

@@ -16,15 +16,15 @@ namespace brume
 /// A scene's fog for paths: collisions are drawn and transmittances found in closed form.
 ///
 /// Conservative fog with falloff thickens downward without end, and paths in it would collide
-/// endlessly on average. Light that comes down to where nothing is any more returns: far enough below
-/// everything, such fog is replaced by a white matt floor. In a conservative half-space light becomes
-/// even with depth as e^(−τ (1 − g)), and the floor is 16 of these below, an error of 10⁻⁷.
+/// endlessly on average. Light that comes down to where nothing is any more returns: far enough
+/// below everything, such fog is replaced by a white matt floor. In a conservative half-space light
+/// becomes even with depth as e^(−τ (1 − g)), and the floor is 16 of these below, an error of 10⁻⁷.
 class PathFog
 {
 public:
-  /// Of a scene that has_fog(). Throws std::invalid_argument for fog that paths have no end in: one without
-  /// falloff into which light shines from infinity, or of albedo 1, if any number of scatterings
-  /// (most_scatterings 0, or for light from infinity more than 1) is to be followed.
+  /// Of a scene that has_fog(). Throws std::invalid_argument for fog that paths have no end in: one
+  /// without falloff into which light shines from infinity, or of albedo 1, if any number of
+  /// scatterings (most_scatterings 0, or for light from infinity more than 1) is to be followed.
   PathFog(const Scene& scene, int most_scatterings);
 
   FogRay ray(const glm::dvec3& begin, const glm::dvec3& along) const
@@ -50,7 +50,10 @@ public:
   const glm::dvec3& base_extinction() const { return this->Extinction; }
   const glm::dvec3& albedo() const { return this->Albedo; }
   const PhaseSampler& phase() const { return this->Phase; }
-  bool scatters() const { return this->Albedo.x > 0.0 || this->Albedo.y > 0.0 || this->Albedo.z > 0.0; }
+  bool scatters() const
+  {
+    return this->Albedo.x > 0.0 || this->Albedo.y > 0.0 || this->Albedo.z > 0.0;
+  }
   bool is_layered() const { return this->Falloff > 0.0; }
   bool is_coloured() const
   {

@@ -28,14 +28,17 @@ struct Distances
   }
   double density(double r) const
   {
-    return r <= this->most ? this->scale / ((this->scale * this->scale + r * r) * this->angle()) : 0.0;
+    return r <= this->most ? this->scale / ((this->scale * this->scale + r * r) * this->angle())
+                           : 0.0;
   }
 };
 
 }
 
-LampPlace NearLamp::on_ray(
-  const glm::dvec3& begin, const glm::dvec3& along, double length, RandomStream& random) const
+LampPlace NearLamp::on_ray(const glm::dvec3& begin,
+  const glm::dvec3& along,
+  double length,
+  RandomStream& random) const
 {
   LampPlace result;
   const double foot = glm::dot(this->centre() - begin, along);
@@ -67,7 +70,8 @@ LampPlace NearLamp::from_place(const glm::dvec3& begin,
   const double scale = std::max(glm::length(apart), tiny);
   const Distances around_lamp{ scale, this->radius };
   const Distances around_place{ scale, scale + this->radius };
-  // From far away, places are only drawn around the lamp: the way is then no shorter than half as far.
+  // From far away, places are only drawn around the lamp: the way is then no shorter than half as
+  // far.
   const bool near = scale < 2.0 * this->radius;
   const bool by_phase = near && random.uniform() < 0.5;
   double r;
@@ -86,7 +90,8 @@ LampPlace NearLamp::from_place(const glm::dvec3& begin,
   {
     r = around_lamp.sample(random.uniform());
     const double height = 2.0 * random.uniform();
-    const glm::dvec3 off = r * direction_around(glm::dvec3(0.0, 0.0, 1.0), height, random.uniform());
+    const glm::dvec3 off =
+      r * direction_around(glm::dvec3(0.0, 0.0, 1.0), height, random.uniform());
     result.place = this->centre() + off;
     result.along = off - apart;
     result.way = glm::length(result.along);
@@ -99,8 +104,7 @@ LampPlace NearLamp::from_place(const glm::dvec3& begin,
   // p / way², by the mean of p q / way² and q / 4π r²; times all squares.
   const double p = phase.value(from, result.along);
   const double lamp = around_lamp.density(r) / (4.0 * pi) * result.way * result.way;
-  const double both =
-    near ? 0.5 * (lamp + p * around_place.density(result.way) * r * r) : lamp;
+  const double both = near ? 0.5 * (lamp + p * around_place.density(result.way) * r * r) : lamp;
   result.weight = both > 0.0 ? p * r * r / both : 0.0;
   return result;
 }

@@ -33,8 +33,7 @@ double distance_from(const Volume& volume, const glm::dvec3& place)
   glm::dvec4 nearest = glm::inverse(world_from_index) * glm::dvec4(place, 1.0);
   for (int axis = 0; axis < 3; ++axis)
   {
-    nearest[axis] =
-      std::clamp(nearest[axis], volume.grid.lower(axis), volume.grid.upper(axis));
+    nearest[axis] = std::clamp(nearest[axis], volume.grid.lower(axis), volume.grid.upper(axis));
   }
   return glm::length(glm::dvec3(world_from_index * nearest) - place);
 }
@@ -106,8 +105,10 @@ double PathScene::near_radius(const Lamp& lamp) const
 
 /// What is scattered at a place of light along `along` toward `toward`, per world unit on the way
 /// along it.
-glm::dvec3 PathScene::scattered(
-  const glm::dvec3& place, const glm::dvec3& along, const glm::dvec3& toward, Path& path) const
+glm::dvec3 PathScene::scattered(const glm::dvec3& place,
+  const glm::dvec3& along,
+  const glm::dvec3& toward,
+  Path& path) const
 {
   glm::dvec3 sum(0.0);
   for (const auto& matter : this->Matter)
@@ -131,15 +132,17 @@ glm::dvec3 PathScene::scattered(
   }
   if (this->Fog)
   {
-    sum += this->Fog->extinction(place) * this->Fog->albedo() *
-           this->Fog->phase().value(along, toward);
+    sum +=
+      this->Fog->extinction(place) * this->Fog->albedo() * this->Fog->phase().value(along, toward);
   }
   return sum;
 }
 
 /// The transmittance of everything between two places; an infinite length is toward light there.
-glm::dvec3 PathScene::clearance(
-  const glm::dvec3& begin, const glm::dvec3& along, double length, Path& path) const
+glm::dvec3 PathScene::clearance(const glm::dvec3& begin,
+  const glm::dvec3& along,
+  double length,
+  Path& path) const
 {
   glm::dvec3 passes(1.0);
   if (this->Fog)
@@ -196,8 +199,9 @@ glm::dvec3 PathScene::near_on_ray(const Sight& sight, Path& path) const
       {
         light *= this->Fog->transmittance(this->Fog->ray(origin, sight.along), at.way);
       }
-      sum += light * this->transmittance(sight.begin, sight.along,
-                       std::min(at.way - sight.fog_before, sight.length), path);
+      sum += light *
+             this->transmittance(
+               sight.begin, sight.along, std::min(at.way - sight.fog_before, sight.length), path);
     }
   }
   return sum;
@@ -247,9 +251,10 @@ glm::dvec3 PathScene::near_from(const glm::dvec3& place,
   return light * (sum / weight_of_chosen / chance);
 }
 
-/// One lamp is followed, with a chance that is its share of what would arrive from all without shadows.
-/// Of many lamps a few are drawn by their power first, and that is done among them, which is unbiased,
-/// too (J. Talbot, D. Cline, P. Egbert, Importance resampling for global illumination, EGSR 2005).
+/// One lamp is followed, with a chance that is its share of what would arrive from all without
+/// shadows. Of many lamps a few are drawn by their power first, and that is done among them, which
+/// is unbiased, too (J. Talbot, D. Cline, P. Egbert, Importance resampling for global illumination,
+/// EGSR 2005).
 glm::dvec3 PathScene::lit(const glm::dvec3& place,
   const glm::dvec3& along,
   const PhaseSampler& phase,
@@ -304,9 +309,9 @@ glm::dvec3 PathScene::lit(const glm::dvec3& place,
          this->clearance(place, -chosen->travel(offset), way, path);
 }
 
-/// Light from all around, in a direction drawn by how much of it comes from there; weighted with the
-/// balance heuristic against directions drawn by the phase function (E. Veach, L. J. Guibas, Optimally
-/// combining sampling techniques for Monte Carlo rendering, SIGGRAPH 1995).
+/// Light from all around, in a direction drawn by how much of it comes from there; weighted with
+/// the balance heuristic against directions drawn by the phase function (E. Veach, L. J. Guibas,
+/// Optimally combining sampling techniques for Monte Carlo rendering, SIGGRAPH 1995).
 glm::dvec3 PathScene::lit_from_around(const glm::dvec3& place,
   const glm::dvec3& along,
   const PhaseSampler& phase,
@@ -331,16 +336,15 @@ glm::dvec3 PathScene::sky(const glm::dvec3& toward, double phase) const
   return this->AroundIsSought ? radiance / (1.0 + this->Around.density(toward) / phase) : radiance;
 }
 
-/// The first collision with a volume or the fog, or its floor. Fog is one more Poisson process, whose
-/// first collision is drawn in closed form.
+/// The first collision with a volume or the fog, or its floor. Fog is one more Poisson process,
+/// whose first collision is drawn in closed form.
 bool PathScene::meet(const Sight& sight, double floor, Path& path, Collision& found) const
 {
   if (!this->Fog)
   {
     return this->collide(sight.begin, sight.along, sight.length, path, found);
   }
-  const FogRay ray =
-    this->Fog->ray(sight.begin - sight.fog_before * sight.along, sight.along);
+  const FogRay ray = this->Fog->ray(sight.begin - sight.fog_before * sight.along, sight.along);
   const FogVeil veil(*this->Fog, ray, sight.fog_before, sight.fog_undrawn);
   path.veil = &veil;
   double fog_at = infinity;
@@ -394,8 +398,8 @@ glm::dvec3 PathScene::radiance(const Sight& from, RandomStream& random, PathCoun
   {
     Collision found;
     const bool last = most_scatterings > 0 && scatterings == most_scatterings;
-    // Light from infinity is undimmed in fog without falloff, and with a limit on scatterings that is
-    // the last leg of the path.
+    // Light from infinity is undimmed in fog without falloff, and with a limit on scatterings that
+    // is the last leg of the path.
     sight.fog_undrawn = this->Fog && last && !this->Fog->is_layered();
     const bool collides = this->meet(sight, floor, path, found);
     sum += found.emitted;
@@ -412,8 +416,7 @@ glm::dvec3 PathScene::radiance(const Sight& from, RandomStream& random, PathCoun
       const glm::dvec3& reflected = this->Fog->conservative();
       const glm::dvec3 others = 1.0 - reflected;
       const bool both = largest(path.kept * reflected) > 0.0 && largest(path.kept * others) > 0.0;
-      const bool reflects =
-        both ? random.uniform() < 0.5 : largest(path.kept * reflected) > 0.0;
+      const bool reflects = both ? random.uniform() < 0.5 : largest(path.kept * reflected) > 0.0;
       path.kept *= (both ? 2.0 : 1.0) * (reflects ? reflected : others);
       if (reflects)
       {

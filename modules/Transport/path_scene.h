@@ -34,12 +34,13 @@ struct PathCounts
 /// A ray that light is looked for on. Of the camera's, volumes and fog may begin and end apart.
 struct Sight
 {
-  glm::dvec3 begin{ 0.0 }; ///< in the world
-  glm::dvec3 along{ 0.0 }; ///< a unit vector
+  glm::dvec3 begin{ 0.0 };                                 ///< in the world
+  glm::dvec3 along{ 0.0 };                                 ///< a unit vector
   double length = std::numeric_limits<double>::infinity(); ///< up to which there are volumes
   double fog_before = 0.0; ///< how far before `begin` the fog begins; may be negative
   double fog_length = std::numeric_limits<double>::infinity(); ///< from `begin` to its end
-  bool fog_undrawn = false; ///< no collisions with the fog; it dims what is sent in it, and not the sky
+  bool fog_undrawn =
+    false; ///< no collisions with the fog; it dims what is sent in it, and not the sky
 };
 
 /// A scene prepared for paths.
@@ -47,15 +48,15 @@ class PathScene
 {
 public:
   /// Keeps a reference to the scene. `environment`, which may be null, is light from all around
-  /// beside the scene's sky. Throws std::invalid_argument for what cannot be traced: another blend mode than
-  /// composite, and what PathFog and PathEnvironment refuse.
+  /// beside the scene's sky. Throws std::invalid_argument for what cannot be traced: another blend
+  /// mode than composite, and what PathFog and PathEnvironment refuse.
   PathScene(const Scene& scene,
     int most_scatterings,
     std::shared_ptr<const PlacedEnvironment> environment = nullptr);
 
-  /// An estimate of the radiance that arrives at `from` from the direction it looks along; light from
-  /// behind that was not scattered does not count. Unbiased: its expectation is the solution of the
-  /// radiative transfer equation with up to so many scatterings (0: any number).
+  /// An estimate of the radiance that arrives at `from` from the direction it looks along; light
+  /// from behind that was not scattered does not count. Unbiased: its expectation is the solution
+  /// of the radiative transfer equation with up to so many scatterings (0: any number).
   glm::dvec3 radiance(const Sight& from, RandomStream& random, PathCounts& counts) const;
 
   /// What trace_paths() needs; null for a scene that it does not know.
@@ -92,10 +93,14 @@ private:
 
   // path_light.cxx
   bool meet(const Sight& sight, double floor, Path& path, Collision& found) const;
-  glm::dvec3 clearance(
-    const glm::dvec3& begin, const glm::dvec3& along, double length, Path& path) const;
-  glm::dvec3 scattered(
-    const glm::dvec3& place, const glm::dvec3& along, const glm::dvec3& toward, Path& path) const;
+  glm::dvec3 clearance(const glm::dvec3& begin,
+    const glm::dvec3& along,
+    double length,
+    Path& path) const;
+  glm::dvec3 scattered(const glm::dvec3& place,
+    const glm::dvec3& along,
+    const glm::dvec3& toward,
+    Path& path) const;
   double near_radius(const Lamp& lamp) const;
   glm::dvec3 lit_at(const NearLamp& near, const LampPlace& at, Path& path) const;
   glm::dvec3 near_on_ray(const Sight& sight, Path& path) const;
@@ -128,8 +133,8 @@ private:
   PathEnvironment Around;
   bool AroundIsSought = false; ///< at scatterings, and not only where paths leave
   int MostScatterings;
-  bool Glows = false; ///< light comes from elsewhere than lamps: sky, ground, map, matter
-  bool Coloured = false;        ///< some extinction differs between R, G and B
+  bool Glows = false;    ///< light comes from elsewhere than lamps: sky, ground, map, matter
+  bool Coloured = false; ///< some extinction differs between R, G and B
 };
 
 }

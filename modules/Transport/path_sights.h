@@ -17,8 +17,8 @@ public:
   /// Keeps a reference to the scene.
   PathSights(const Scene& scene, int width, int height);
 
-  /// The ray through the centre of pixel (x, y), y from the bottom; false where there is nothing to be
-  /// met.
+  /// The ray through the centre of pixel (x, y), y from the bottom; false where there is nothing to
+  /// be met.
   bool find(int x, int y, Sight& sight) const;
 
 private:

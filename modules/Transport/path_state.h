@@ -31,11 +31,12 @@ inline double mean(const glm::dvec3& v)
 
 }
 
-/// A path so far. Its events were drawn by the extinctions of one channel, the hero, which was drawn
-/// itself; chances[c] is the density of these events had it been channel c, by that of the hero. By
-/// the balance heuristic over the three each estimate counts by `chances` over their mean (B. Miller,
-/// I. Georgiev, W. Jarosz, A null-scattering path integral formulation of light transport, SIGGRAPH
-/// 2019; the hero: A. Wilkie et al., Hero wavelength spectral sampling, EGSR 2014).
+/// A path so far. Its events were drawn by the extinctions of one channel, the hero, which was
+/// drawn itself; chances[c] is the density of these events had it been channel c, by that of the
+/// hero. By the balance heuristic over the three each estimate counts by `chances` over their mean
+/// (B. Miller, I. Georgiev, W. Jarosz, A null-scattering path integral formulation of light
+/// transport, SIGGRAPH 2019; the hero: A. Wilkie et al., Hero wavelength spectral sampling, EGSR
+/// 2014).
 struct PathScene::Path
 {
   RandomStream& random;

@@ -1,5 +1,5 @@
-// No bias from majorants, roulette or the colours' weights: over many seeds, means are off by their own
-// standard errors as chance has it, and by nothing else.
+// No bias from majorants, roulette or the colours' weights: over many seeds, means are off by their
+// own standard errors as chance has it, and by nothing else.
 #include "../support/path_truth.h"
 
 #include <glm/ext/matrix_transform.hpp>
@@ -30,10 +30,11 @@ int first_seed()
 /// How seeds differ from a truth.
 struct Scores
 {
-  double of_mean = 0.0;    ///< of the mean over all seeds, in its standard errors; normal
-  double chi_square = 0.0; ///< of the seeds' z, with as many degrees of freedom, as a normal deviate
-  double off = 0.0;        ///< the mean, relatively
-  double mean_size = 0.0;  ///< mean |z|; √(2/π) = 0.80 where z is normal
+  double of_mean = 0.0; ///< of the mean over all seeds, in its standard errors; normal
+  double chi_square =
+    0.0;                  ///< of the seeds' z, with as many degrees of freedom, as a normal deviate
+  double off = 0.0;       ///< the mean, relatively
+  double mean_size = 0.0; ///< mean |z|; √(2/π) = 0.80 where z is normal
 };
 
 /// Of each channel, of pictures of 8 × 8 equal pixels, each a seed's mean and standard error.
@@ -80,8 +81,8 @@ void expect_unbiased(const std::string& name, const std::array<Scores, 3>& chann
   for (int c = 0; c < 3; c += step)
   {
     const Scores& s = channels[c];
-    std::cout << name << ", channel " << c << ": mean " << s.of_mean << " (" << s.off << "), chi square "
-              << s.chi_square << ", mean |z| " << s.mean_size << '\n';
+    std::cout << name << ", channel " << c << ": mean " << s.of_mean << " (" << s.off
+              << "), chi square " << s.chi_square << ", mean |z| " << s.mean_size << '\n';
     EXPECT_LE(std::abs(s.of_mean), 4.0) << name;
     EXPECT_LE(std::abs(s.chi_square), 4.5) << name;
     EXPECT_NEAR(s.mean_size, 0.798, 0.17 * std::sqrt(240.0 / seeds)) << name;
@@ -109,19 +110,22 @@ Slab half_space(double albedo, const glm::dvec3& depths)
   return slab;
 }
 
-/// Uneven matter, grey or coloured, between bounds that are tight or loose: one voxel in the far corner
-/// of each brick row makes the bounds of all bricks those of the densest place.
+/// Uneven matter, grey or coloured, between bounds that are tight or loose: one voxel in the far
+/// corner of each brick row makes the bounds of all bricks those of the densest place.
 struct Uneven
 {
   Voxels<float> voxels;
   Scene scene;
 
   Uneven(const glm::dvec3& channels, double loose)
-    : voxels(17, 17, 17,
+    : voxels(17,
+        17,
+        17,
         [loose](int i, int j, int k)
         {
           const bool spike = i % 8 == 4 && j % 8 == 4 && k % 8 == 4;
-          const float v = 0.5f + 0.5f * std::sin(1.1f * i + 0.3f) * std::cos(0.8f * j) * std::sin(0.6f * k + 1.0f);
+          const float v = 0.5f + 0.5f * std::sin(1.1f * i + 0.3f) * std::cos(0.8f * j) *
+                                   std::sin(0.6f * k + 1.0f);
           return spike ? v * float(loose) : v * v;
         })
   {
@@ -136,7 +140,8 @@ struct Uneven
     Light sun;
     sun.direction = glm::normalize(glm::dvec3(0.3, -0.8, -0.5));
     scene.lights = { sun };
-    scene.camera = pencil(glm::dvec3(8.3, 7.9, 8.6), glm::dvec3(-0.5, -0.6, -0.62), 30.0).camera(1.0);
+    scene.camera =
+      pencil(glm::dvec3(8.3, 7.9, 8.6), glm::dvec3(-0.5, -0.6, -0.62), 30.0).camera(1.0);
   }
 };
 
@@ -149,20 +154,21 @@ TEST(PathBias, RouletteKeepsTheMean)
   {
     const Slab slab = half_space(albedo, glm::dvec3(60.0));
     expect_unbiased("half-space, albedo " + std::to_string(albedo),
-      scores(slab.scene, 100, glm::dvec3(chandrasekhar(albedo))), 3);
+      scores(slab.scene, 100, glm::dvec3(chandrasekhar(albedo))),
+      3);
   }
 }
 
-// All channels of a half-space are alike, however much thinner one is than the hero's. Roulette among them: path
-// by path, not in packets.
+// All channels of a half-space are alike, however much thinner one is than the hero's. Roulette
+// among them: path by path, not in packets.
 TEST(PathBias, ColoursAreWeighted)
 {
   const Slab slab = half_space(0.4, glm::dvec3(60.0, 120.0, 40.0));
   expect_unbiased("coloured half-space", scores(slab.scene, 60, glm::dvec3(chandrasekhar(0.4))));
 }
 
-// Uneven matter, scattered once, against the reference, with bounds as tight as bricks have them and eight
-// times too loose.
+// Uneven matter, scattered once, against the reference, with bounds as tight as bricks have them
+// and eight times too loose.
 TEST(PathBias, MajorantsKeepTheMean)
 {
   for (const bool coloured : { false, true })
@@ -172,8 +178,10 @@ TEST(PathBias, MajorantsKeepTheMean)
       const Uneven uneven(coloured ? glm::dvec3(1.0, 0.5, 0.2) : glm::dvec3(1.0), loose);
       const Film film = by_reference(1e-6, 16)(uneven.scene, 1, 1);
       const glm::dvec3 truth(film.radiance[0][0], film.radiance[1][0], film.radiance[2][0]);
-      expect_unbiased(std::string(coloured ? "coloured" : "grey") + (loose > 1.0 ? ", loose" : ", tight"),
-        scores(uneven.scene, 40, truth, 1), coloured ? 1 : 2);
+      expect_unbiased(
+        std::string(coloured ? "coloured" : "grey") + (loose > 1.0 ? ", loose" : ", tight"),
+        scores(uneven.scene, 40, truth, 1),
+        coloured ? 1 : 2);
     }
   }
 }

@@ -1,5 +1,5 @@
-// Light from all around as paths find it: directions drawn by their density, and media that a picture
-// lights, not lights in its place.
+// Light from all around as paths find it: directions drawn by their density, and media that a
+// picture lights, not lights in its place.
 #include "../support/path_truth.h"
 
 #include "Transport/environment.h"
@@ -35,8 +35,9 @@ std::shared_ptr<PlacedEnvironment> map_of(int width, int height, Value value)
 /// Uneven matter that absorbs a little, seen along one ray.
 struct Cloud
 {
-  Voxels<float> voxels{ 9, 8, 7,
-    [](int i, int j, int k) { return 0.5f + 0.5f * std::sin(1.3f * i) * std::cos(2.1f * j + k); } };
+  Voxels<float> voxels{ 9, 8, 7, [](int i, int j, int k) {
+                         return 0.5f + 0.5f * std::sin(1.3f * i) * std::cos(2.1f * j + k);
+                       } };
   Scene scene;
 
   explicit Cloud(double albedo)
@@ -51,7 +52,9 @@ struct Cloud
     scene.camera =
       pencil(glm::dvec3(4.0, 3.5, 3.0), glm::dvec3(-0.4, -0.7, -0.5), 20.0).camera(1.0);
   }
-  Film trace(std::shared_ptr<const PlacedEnvironment> map, int samples, std::uint32_t seed = 1,
+  Film trace(std::shared_ptr<const PlacedEnvironment> map,
+    int samples,
+    std::uint32_t seed = 1,
     int scatterings = 0) const
   {
     PathSettings settings;
@@ -67,10 +70,10 @@ void expect_alike(const Mean& a, const Mean& b, double relative = 0.0)
 {
   for (int c = 0; c < 3; ++c)
   {
-    std::cout << "  " << a.value[c] << " +- " << a.error[c] << ", " << b.value[c] << " +- " << b.error[c]
-              << '\n';
-    EXPECT_NEAR(a.value[c], b.value[c],
-      4.0 * std::hypot(a.error[c], b.error[c]) + relative * b.value[c]);
+    std::cout << "  " << a.value[c] << " +- " << a.error[c] << ", " << b.value[c] << " +- "
+              << b.error[c] << '\n';
+    EXPECT_NEAR(
+      a.value[c], b.value[c], 4.0 * std::hypot(a.error[c], b.error[c]) + relative * b.value[c]);
   }
 }
 
@@ -80,9 +83,13 @@ TEST(PathEnvironment, DirectionsFollowTheirDensity)
 {
   constexpr int width = 9;
   constexpr int height = 6;
-  const auto placed = map_of(width, height,
+  const auto placed = map_of(width,
+    height,
     [](int x, int y)
-    { return x == 3 && y == 5 ? glm::dvec3(30.0, 3.0, 1.0) : glm::dvec3(0.1 * ((x * y) % 5), 0.3, 0.0); });
+    {
+      return x == 3 && y == 5 ? glm::dvec3(30.0, 3.0, 1.0)
+                              : glm::dvec3(0.1 * ((x * y) % 5), 0.3, 0.0);
+    });
   placed->world_from_map = world_from_environment(glm::normalize(glm::dvec3(0.3, -0.5, 0.6)), 33.0);
   Sky sky;
   sky.radiance = glm::dvec3(0.5, 0.7, 0.9);
@@ -113,8 +120,8 @@ TEST(PathEnvironment, DirectionsFollowTheirDensity)
       const double z = 2.0 * (v + 0.5) / (8 * fine) - 1.0;
       const double angle = 2.0 * pi * ((u + 0.5) / (12 * fine) - 0.5);
       const double r = std::sqrt(1.0 - z * z);
-      const double part =
-        environment.density({ r * std::cos(angle), r * std::sin(angle), z }) * 4.0 * pi / (96.0 * fine * fine);
+      const double part = environment.density({ r * std::cos(angle), r * std::sin(angle), z }) *
+                          4.0 * pi / (96.0 * fine * fine);
       chances[8 * (u / fine) + v / fine] += part;
       whole += part;
     }
@@ -127,7 +134,8 @@ TEST(PathEnvironment, DirectionsFollowTheirDensity)
     chi_square += (counts[i] - expected) * (counts[i] - expected) / expected;
   }
   std::cout << "chi square " << chi_square << " of " << cells - 1 << '\n';
-  EXPECT_LE(chi_square, cells - 1 + 5.0 * std::sqrt(2.0 * cells)); // the midpoint rule's error in it
+  EXPECT_LE(
+    chi_square, cells - 1 + 5.0 * std::sqrt(2.0 * cells)); // the midpoint rule's error in it
 }
 
 // A picture as bright everywhere is a furnace, and one of two halves is sky and ground.
@@ -142,7 +150,8 @@ TEST(PathEnvironment, PicturesOfSkiesAreSkies)
     EXPECT_LE(mean.error[c], 3e-3);
   }
   Cloud grey(0.9);
-  const auto halves = map_of(16, 8,
+  const auto halves = map_of(16,
+    8,
     [](int, int y) { return y >= 4 ? glm::dvec3(0.5, 0.7, 0.9) : glm::dvec3(0.2, 0.1, 0.0); });
   const Mean of_map = mean_of(grey.trace(halves, 100));
   grey.scene.sky.radiance = glm::dvec3(0.5, 0.7, 0.9);
@@ -159,10 +168,11 @@ TEST(PathEnvironment, SmallSunsAreSuns)
   constexpr int height = 128;
   const int x = 100;
   const int y = 100;
-  const auto picture = map_of(width, height,
-    [&](int i, int j) { return i == x && j == y ? glm::dvec3(5000.0, 4000.0, 3000.0) : glm::dvec3(0.0); });
-  picture->world_from_map =
-    world_from_environment(glm::normalize(glm::dvec3(0.2, 0.7, 0.4)), 20.0);
+  const auto picture = map_of(width,
+    height,
+    [&](int i, int j)
+    { return i == x && j == y ? glm::dvec3(5000.0, 4000.0, 3000.0) : glm::dvec3(0.0); });
+  picture->world_from_map = world_from_environment(glm::normalize(glm::dvec3(0.2, 0.7, 0.4)), 20.0);
   for (const int scatterings : { 1, 0 })
   {
     const Mean of_map = mean_of(cloud.trace(picture, 100, 1, scatterings));

@@ -35,7 +35,8 @@ Scene fog(double falloff)
   scene.fog.albedo = glm::dvec3(0.9, 0.8, 1.0);
   scene.fog.falloff = falloff;
   scene.fog.base_height = 1.0;
-  scene.fog.lobes = { { PhaseFunction::HenyeyGreenstein, 0.8, 0.5 }, { PhaseFunction::Rayleigh, 0.2, 0.0 } };
+  scene.fog.lobes = { { PhaseFunction::HenyeyGreenstein, 0.8, 0.5 },
+    { PhaseFunction::Rayleigh, 0.2, 0.0 } };
   scene.camera = downward().camera(1.0);
   return scene;
 }
@@ -78,8 +79,8 @@ void expect_agreement(const char* name, const Scene& scene, const Film& truth, i
   }
   const double mean =
     std::max({ std::abs(sums[0]), std::abs(sums[1]), std::abs(sums[2]) }) / std::sqrt(variance);
-  std::cout << name << ": " << mean << " standard errors off, mean square " << squares / count << ", of "
-            << count << " pixels\n";
+  std::cout << name << ": " << mean << " standard errors off, mean square " << squares / count
+            << ", of " << count << " pixels\n";
   EXPECT_GT(count, edge * edge / 4) << name;
   EXPECT_LE(mean, 4.0) << name;
   EXPECT_LE(squares / count, 2.5) << name;
@@ -123,8 +124,10 @@ TEST(PathFog, OneScatteringOfFogAloneIsTheClosedForms)
 // to be seen.
 TEST(PathFog, OneScatteringWithVolumesIsTheReferences)
 {
-  const Voxels<float> voxels{ 12, 11, 10,
-    [](int i, int j, int k) { return 0.5f + 0.5f * std::sin(0.9f * i) * std::cos(0.7f * j + 0.4f * k); } };
+  const Voxels<float> voxels{ 12, 11, 10, [](int i, int j, int k) {
+                               return 0.5f +
+                                      0.5f * std::sin(0.9f * i) * std::cos(0.7f * j + 0.4f * k);
+                             } };
   Scene scene = fog(0.2);
   scene.volumes.resize(1);
   Volume& volume = scene.volumes[0];
@@ -221,7 +224,8 @@ TEST(PathFog, FloorsAreOfConservativeChannels)
     const double albedo = scene.fog.albedo[c];
     const HFunction h(albedo);
     const double radiance = 0.6 * 0.25 * albedo * h(0.8) * h(0.6) / 1.4;
-    std::cout << albedo << ": " << mean.value[c] / radiance - 1.0 << " +- " << mean.error[c] / radiance << '\n';
+    std::cout << albedo << ": " << mean.value[c] / radiance - 1.0 << " +- "
+              << mean.error[c] / radiance << '\n';
     EXPECT_NEAR(mean.value[c], radiance, 4.0 * mean.error[c]);
     EXPECT_LE(mean.error[c], 0.02 * radiance);
   }

@@ -1,5 +1,5 @@
-// Lamps in matter, close to which light grows as 1/d²: paths find it without bias, and with a variance
-// that is finite.
+// Lamps in matter, close to which light grows as 1/d²: paths find it without bias, and with a
+// variance that is finite.
 #include "../support/path_truth.h"
 
 #include <iostream>
@@ -40,13 +40,22 @@ double truth(double passes_at, double sigma)
   {
     const double r = sigma * std::hypot(passes_at, z);
     // The fluence of a power of 4π² (irradiance π/d²), in units of 1/σ².
-    return std::exp(-sigma * (z + 2.9)) * albedo * sigma / (4.0 * pi) * 4.0 * pi * pi * sigma * sigma *
-           medium.fluence(r);
+    return std::exp(-sigma * (z + 2.9)) * albedo * sigma / (4.0 * pi) * 4.0 * pi * pi * sigma *
+           sigma * medium.fluence(r);
   };
   double sum = 0.0;
-  std::vector<double> ends{ -2.9, -1.0, -10.0 * passes_at, -passes_at, 0.0, passes_at,
-    10.0 * passes_at, 1.0, 10.0, 40.0 / sigma };
-  ends.erase(std::remove_if(ends.begin(), ends.end(), [](double z) { return z < -2.9; }), ends.end());
+  std::vector<double> ends{ -2.9,
+    -1.0,
+    -10.0 * passes_at,
+    -passes_at,
+    0.0,
+    passes_at,
+    10.0 * passes_at,
+    1.0,
+    10.0,
+    40.0 / sigma };
+  ends.erase(
+    std::remove_if(ends.begin(), ends.end(), [](double z) { return z < -2.9; }), ends.end());
   std::sort(ends.begin(), ends.end());
   for (std::size_t i = 1; i < ends.size(); ++i)
   {
@@ -84,15 +93,15 @@ TEST(PathLamps, InfiniteMediumIsCasesAndZweifels)
   for (int c = 0; c < 3; ++c)
   {
     const double right = truth(0.1, coloured.scene.fog.extinction[c]);
-    std::cout << "channel " << c << ": " << mean.value[c] / right - 1.0 << " +- " << mean.error[c] / right
-              << '\n';
+    std::cout << "channel " << c << ": " << mean.value[c] / right - 1.0 << " +- "
+              << mean.error[c] / right << '\n';
     EXPECT_NEAR(mean.value[c], right, 4.0 * mean.error[c]);
     EXPECT_LE(mean.error[c], 0.02 * right);
   }
 }
 
-// An error of finite variance falls as 1/√n; one that a 1/d² leaves to chance as n^(−1/3), so that times √n
-// it grows threefold here.
+// An error of finite variance falls as 1/√n; one that a 1/d² leaves to chance as n^(−1/3), so that
+// times √n it grows threefold here.
 TEST(PathLamps, ErrorFallsAsOneOverTheRootOfThePaths)
 {
   const AroundLamp around(0.5);
@@ -121,8 +130,10 @@ TEST(PathLamps, ErrorFallsAsOneOverTheRootOfThePaths)
 // Lamps in and just outside of a box, with cones and other laws, scattered once: the reference's.
 TEST(PathLamps, OneScatteringIsTheReferences)
 {
-  const Voxels<float> voxels{ 12, 11, 10,
-    [](int i, int j, int k) { return 0.6f + 0.4f * std::sin(0.9f * i) * std::cos(0.7f * j + 0.4f * k); } };
+  const Voxels<float> voxels{ 12, 11, 10, [](int i, int j, int k) {
+                               return 0.6f +
+                                      0.4f * std::sin(0.9f * i) * std::cos(0.7f * j + 0.4f * k);
+                             } };
   Scene scene;
   Volume& volume = scene.volumes[0];
   volume.grid = voxels.grid();
@@ -177,7 +188,8 @@ TEST(PathLamps, OneScatteringIsTheReferences)
       ++count;
     }
   }
-  std::cout << sum / std::sqrt(variance) << " standard errors off, mean square " << squares / count << '\n';
+  std::cout << sum / std::sqrt(variance) << " standard errors off, mean square " << squares / count
+            << '\n';
   EXPECT_GT(count, 150);
   EXPECT_LE(std::abs(sum) / std::sqrt(variance), 4.0);
   EXPECT_LE(squares / count, 1.5);

@@ -1,4 +1,5 @@
-// Path tracing in a window: pictures that refine while nothing changes, fog, and an environment map.
+// Path tracing in a window: pictures that refine while nothing changes, fog, and an environment
+// map.
 #include "../support/vtk_scenes.h"
 
 #include "vtkBrumeFog.h"
@@ -140,7 +141,10 @@ TEST(PathWindow, RefinesWhileNothingChanges)
   view.mapper->SetCropping(1);
   view.mapper->SetCroppingRegionPlanes(5, 20, 5, 20, 5, 20);
   begins_anew("cropping");
-  static_cast<vtkImageData*>(view.mapper->GetInputDataObject(0, 0))->GetPointData()->GetScalars()->Modified();
+  static_cast<vtkImageData*>(view.mapper->GetInputDataObject(0, 0))
+    ->GetPointData()
+    ->GetScalars()
+    ->Modified();
   static_cast<vtkImageData*>(view.mapper->GetInputDataObject(0, 0))->Modified();
   begins_anew("voxels");
   view.mapper->SetSurfaceDepth(std::vector<float>(size * size, 0.9f));
@@ -183,8 +187,8 @@ TEST(PathWindow, TracesFog)
   EXPECT_TRUE(on);
 }
 
-// The map lights the ball itself: its directional lights are not there a second time, and their number
-// does not matter.
+// The map lights the ball itself: its directional lights are not there a second time, and their
+// number does not matter.
 TEST(PathWindow, TakesEnvironmentMapsAsTheyAre)
 {
   View view;

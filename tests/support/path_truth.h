@@ -30,8 +30,8 @@ inline double effort()
   return text ? std::max(std::atof(text), 1e-3) : usual;
 }
 
-/// Standard errors that a mean may be off. Of some fifty checks one is beyond three now and then, with another
-/// processor's last digits.
+/// Standard errors that a mean may be off. Of some fifty checks one is beyond three now and then,
+/// with another processor's last digits.
 inline double most_off()
 {
   return std::getenv("BRUME_PATHS") ? 3.0 : 4.5;
@@ -58,7 +58,8 @@ inline Mean mean_of(const Film& film)
       squares += double(v) * v;
     }
     mean.value[c] = sum / count;
-    mean.error[c] = std::sqrt(std::max(squares / count - mean.value[c] * mean.value[c], 0.0) / (count - 1.0));
+    mean.error[c] =
+      std::sqrt(std::max(squares / count - mean.value[c] * mean.value[c], 0.0) / (count - 1.0));
   }
   return mean;
 }
@@ -86,9 +87,9 @@ inline View pencil(const glm::dvec3& place, const glm::dvec3& forward, double di
   return view;
 }
 
-/// Chandrasekhar's H function for isotropic scattering: 1 / H(μ) = √(1 − ω) + ω/2 ∫ μ′ H(μ′) / (μ + μ′)
-/// dμ′ over [0, 1] (S. Chandrasekhar, Radiative Transfer, 1960, § 38), by iteration on a rule of
-/// Gauss and Kronrod's nodes.
+/// Chandrasekhar's H function for isotropic scattering: 1 / H(μ) = √(1 − ω) + ω/2 ∫ μ′ H(μ′) / (μ +
+/// μ′) dμ′ over [0, 1] (S. Chandrasekhar, Radiative Transfer, 1960, § 38), by iteration on a rule
+/// of Gauss and Kronrod's nodes.
 class HFunction
 {
 public:
@@ -140,10 +141,9 @@ private:
   std::vector<double> Values;
 };
 
-
 /// The fluence of a lamp that sends the power 1 to all sides, at a distance in infinite matter of
-/// extinction 1 that scatters isotropically with an albedo 0 < c < 1: K. M. Case, P. F. Zweifel, Linear
-/// Transport Theory, 1967, § 2.8,
+/// extinction 1 that scatters isotropically with an albedo 0 < c < 1: K. M. Case, P. F. Zweifel,
+/// Linear Transport Theory, 1967, § 2.8,
 ///
 ///   φ(r) = (2 κ² (1 − κ²) / (c (κ² + c − 1)) e^(−κr) + ∫₀¹ g(μ) e^(−r/μ) dμ/μ²) / 4πr,
 ///   1/g = (1 − c μ artanh μ)² + (π c μ / 2)²,   κ = c artanh κ.
