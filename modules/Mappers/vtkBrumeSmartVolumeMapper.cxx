@@ -28,7 +28,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// Of the tolerance, what steps, shadows and leaving early have at the least beside a model's error.
+/// Of the tolerance, what steps, shadows and leaving early have at the least beside a model's
+/// error.
 constexpr double least_of_march = 0.3;
 /// Of a budget: where paths are to end, where a march is given up for the quicker one before.
 constexpr double end_of_paths = 0.97;
@@ -75,7 +76,10 @@ struct vtkBrumeSmartVolumeMapper::Picture
   bool Best = false;          ///< no longer time would make it better
   bool Completed = false;
 
-  double Passed() const { return std::chrono::duration<double>(Clock::now() - this->Start).count(); }
+  double Passed() const
+  {
+    return std::chrono::duration<double>(Clock::now() - this->Start).count();
+  }
 };
 
 vtkStandardNewMacro(vtkBrumeSmartVolumeMapper);
@@ -91,11 +95,13 @@ void vtkBrumeSmartVolumeMapper::March(Picture& picture)
 {
   brume::MarchChoices& choices = this->Internal->Choices;
   brume::ChoiceSettings wanted;
-  wanted.tolerance = std::max(
-    this->Tolerance - picture.Choice.model_error, least_of_march * this->Tolerance);
+  wanted.tolerance =
+    std::max(this->Tolerance - picture.Choice.model_error, least_of_march * this->Tolerance);
   wanted.beyond = picture.Choice.beyond;
-  wanted.step_edge = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(picture.Film.size())) / 8.0),
-    fewest_of_step_edge, most_of_step_edge);
+  wanted.step_edge =
+    std::clamp(static_cast<int>(std::sqrt(static_cast<double>(picture.Film.size())) / 8.0),
+      fewest_of_step_edge,
+      most_of_step_edge);
   wanted.forces = this->GetEffectPlan()->GetForces();
   wanted.threads = this->NumberOfThreads;
   choices.Update(this->Internal->Marcher, this->Internal->Chosen, wanted);
@@ -103,10 +109,12 @@ void vtkBrumeSmartVolumeMapper::March(Picture& picture)
   const brume::Scene& scene = choices.GetScene();
   const brume::MarchSettings& settings = choices.GetSettings();
 
-  picture.Predicted =
-    brume::seconds_of_march(this->Internal->Marcher, scene, settings, picture.Film.width, picture.Film.height);
+  picture.Predicted = brume::seconds_of_march(
+    this->Internal->Marcher, scene, settings, picture.Film.width, picture.Film.height);
   const double before = picture.Passed();
-  const brume::MarchStatistics march = this->Internal->Marcher.render(scene, settings, picture.Film,
+  const brume::MarchStatistics march = this->Internal->Marcher.render(scene,
+    settings,
+    picture.Film,
     [this](double fraction) { return this->TellProgress(fraction); });
   picture.Prepared = before + march.seconds_prepare;
   if (march.rays == 0)
@@ -144,9 +152,14 @@ void vtkBrumeSmartVolumeMapper::MarchWithin(Picture& picture)
   settings.leave_error = 1e-4;
 
   const double passed = picture.Passed();
-  const brume::TimedMarch timed = brume::march_within(this->Internal->Marcher, scene, settings,
-    std::max(picture.Budget - passed, 1e-3), std::max(latest_end * picture.Budget - passed, 1e-3),
-    this->Tolerance, picture.Film, [this](double fraction) { return this->TellProgress(fraction); });
+  const brume::TimedMarch timed = brume::march_within(this->Internal->Marcher,
+    scene,
+    settings,
+    std::max(picture.Budget - passed, 1e-3),
+    std::max(latest_end * picture.Budget - passed, 1e-3),
+    this->Tolerance,
+    picture.Film,
+    [this](double fraction) { return this->TellProgress(fraction); });
   picture.Prepared = picture.Passed() - timed.march.seconds;
   picture.Predicted = timed.predicted;
   picture.Distance = timed.distance;
@@ -194,15 +207,15 @@ void vtkBrumeSmartVolumeMapper::Trace(Picture& picture)
     }
   }
   picture.Predicted = picture.Choice.seconds;
-  const brume::PathStatistics paths = this->Internal->Tracer.render(*scene, settings, *film,
-    [this](double fraction) { return this->TellProgress(fraction); });
+  const brume::PathStatistics paths = this->Internal->Tracer.render(
+    *scene, settings, *film, [this](double fraction) { return this->TellProgress(fraction); });
   picture.Prepared = before + paths.seconds_prepare;
   if (film == &small)
   {
     picture.Film = brume::scaled(small, picture.Film.width, picture.Film.height);
   }
-  const brume::EffectPlan plan = brume::plan_of_paths(
-    this->Internal->Traced, 0, settings.environment != nullptr);
+  const brume::EffectPlan plan =
+    brume::plan_of_paths(this->Internal->Traced, 0, settings.environment != nullptr);
   this->GetEffectPlan()->SetPlan(plan);
   picture.Statistics = brume::statistics_of(picture.Scene, settings, paths, plan, picture.Window);
   picture.Statistics["tolerance_met"] =
@@ -214,7 +227,8 @@ void vtkBrumeSmartVolumeMapper::Trace(Picture& picture)
   else if (!std::isfinite(paths.estimated_error))
   {
     // Too few paths a pixel for its own noise: by that of the probe.
-    picture.Statistics["estimated_error"] = brume::errors_within(0.001) *
+    picture.Statistics["estimated_error"] =
+      brume::errors_within(0.001) *
       std::sqrt(picture.Choice.variance / std::max<double>(static_cast<double>(paths.paths), 1.0));
   }
   this->SecondsRender = paths.seconds;
@@ -224,8 +238,8 @@ void vtkBrumeSmartVolumeMapper::Trace(Picture& picture)
 bool vtkBrumeSmartVolumeMapper::RenderScene(brume::Scene& scene, brume::Film& film)
 {
   const bool window = this->FinalColorWindow != 1.0f || this->FinalColorLevel != 0.5f;
-  const auto spent = std::chrono::duration_cast<Clock::duration>(
-    std::chrono::duration<double>(this->SecondsScene));
+  const auto spent =
+    std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(this->SecondsScene));
   Picture picture{ scene, film, {}, Clock::now() - spent, this->TimeBudget, window };
   const brume::Progress tell = [this](double fraction) { return this->TellProgress(fraction); };
 
@@ -302,9 +316,9 @@ bool vtkBrumeSmartVolumeMapper::RenderScene(brume::Scene& scene, brume::Film& fi
     const bool early = seconds < shares[0] * this->TimeBudget;
     statistics["time_budget_met"] = seconds <= shares[1] * this->TimeBudget;
     statistics["ended_early"] = !early ? nlohmann::json(nullptr)
-      : statistics["tolerance_met"].get<bool>()
-      ? nlohmann::json("the tolerance was met sooner")
-      : nlohmann::json("the best setting took less");
+                                : statistics["tolerance_met"].get<bool>()
+                                  ? nlohmann::json("the tolerance was met sooner")
+                                  : nlohmann::json("the best setting took less");
   }
   statistics["ignored_settings"] = this->IgnoredSettings;
   this->Statistics = statistics.dump(2);

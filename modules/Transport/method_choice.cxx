@@ -33,8 +33,8 @@ constexpr int least_samples = 4; ///< whatever the time
 constexpr int most_samples = 1 << 16;
 /// What a probe may take of the time of what it is made for.
 constexpr double share_of_probe = 0.05;
-/// What a march takes before it begins, at the least: shadows by voxel and light, and choices. Paths that
-/// take no more than so many times as long are traced without a comparison.
+/// What a march takes before it begins, at the least: shadows by voxel and light, and choices.
+/// Paths that take no more than so many times as long are traced without a comparison.
 constexpr double seconds_of_shadow_voxel = 30e-9; // of one thread
 constexpr double seconds_of_choices = 0.1;
 constexpr double times_of_march = 2.0;
@@ -44,7 +44,8 @@ constexpr double sure = 4.0;
 /// distributed, and some more as they are not.
 constexpr double tail = 4.5;
 constexpr double normal_tail = 3.3;
-/// The part of the tolerance that the model of a march may use; steps, shadows and the like have the rest.
+/// The part of the tolerance that the model of a march may use; steps, shadows and the like have
+/// the rest.
 constexpr double share_of_model = 0.7;
 /// Chance to turn down a march that is good enough.
 constexpr double doubt = 0.01;
@@ -98,11 +99,12 @@ const char* method_name(Method method)
 
 bool scatters(const Scene& scene)
 {
-  const bool light = !scene.lights.empty() || largest(scene.sky.radiance) > 0.0 ||
-                     largest(scene.sky.ground) > 0.0;
+  const bool light =
+    !scene.lights.empty() || largest(scene.sky.radiance) > 0.0 || largest(scene.sky.ground) > 0.0;
   return scene.blend_mode == BlendMode::Composite && light &&
          (scene.fog.enabled ||
-           std::any_of(scene.volumes.begin(), scene.volumes.end(),
+           std::any_of(scene.volumes.begin(),
+             scene.volumes.end(),
              [](const Volume& v) { return v.medium.lit && largest(v.medium.albedo) > 0.0; }));
 }
 
@@ -186,7 +188,8 @@ MethodProbe::MethodProbe(const Scene& scene,
   , Threads(threads)
 {
   const double rays = std::clamp<double>(static_cast<double>(this->Pixels) / pixels_of_ray,
-    static_cast<double>(fewest_rays), static_cast<double>(most_rays));
+    static_cast<double>(fewest_rays),
+    static_cast<double>(most_rays));
   const double ratio = std::sqrt(rays / static_cast<double>(this->Pixels));
   const auto part = [ratio](int size)
   { return std::clamp(static_cast<int>(std::lround(size * ratio)), 1, size); };
@@ -206,7 +209,8 @@ bool MethodProbe::trace(int samples, double seconds, const Progress& progress)
   settings.seed = this->Seed + 0x5eed; // other paths than the picture's
   settings.threads = this->Threads;
   settings.environment = this->Environment;
-  const PathStatistics statistics = this->Tracer.render(this->Traced, settings, this->Truth, progress);
+  const PathStatistics statistics =
+    this->Tracer.render(this->Traced, settings, this->Truth, progress);
   this->Samples = statistics.samples_per_pixel;
   this->Followed += statistics.paths;
   this->Seconds += statistics.seconds;
@@ -270,8 +274,8 @@ MarchFit MethodProbe::fit(Marcher& marcher, int octaves, double tolerance)
     double difference = 0.0;
     for (int c = 0; c < 3; ++c)
     {
-      difference = std::max(difference,
-        std::abs(double(marched.radiance[c][pixel]) - this->Truth.radiance[c][pixel]));
+      difference = std::max(
+        difference, std::abs(double(marched.radiance[c][pixel]) - this->Truth.radiance[c][pixel]));
     }
     if (!(difference > 0.0) && !(error > 0.0))
     {
@@ -309,7 +313,12 @@ public:
     , TheScene(scene)
     , Wish(wish)
     , TheProgress(progress)
-    , Probe(scene, wish.traced ? *wish.traced : scene, wish.environment, wish.width, wish.height, wish.seed,
+    , Probe(scene,
+        wish.traced ? *wish.traced : scene,
+        wish.environment,
+        wish.width,
+        wish.height,
+        wish.seed,
         wish.threads)
     , Pixels(static_cast<std::size_t>(wish.width) * wish.height)
   {
@@ -327,11 +336,12 @@ public:
       return this->Choice;
     }
     this->estimate_paths();
-    const bool at_once = this->Wish.seconds <= 0.0 &&
-                         this->Choice.seconds <= times_of_march * this->least_of_march();
+    const bool at_once =
+      this->Wish.seconds <= 0.0 && this->Choice.seconds <= times_of_march * this->least_of_march();
     if (at_once)
     {
-      this->take_paths(words("a picture of ", this->Choice.seconds,
+      this->take_paths(words("a picture of ",
+        this->Choice.seconds,
         " s by paths is smaller work than to find out whether a ray march would do"));
     }
     else if (this->Wish.seconds > 0.0 && !(this->Wish.tolerance > 0.0 && this->paths_fit()))
@@ -353,8 +363,8 @@ public:
 private:
   bool trace(int samples, double seconds)
   {
-    const bool whole = this->Probe.trace(samples, seconds,
-      [this](double) { return !this->TheProgress || this->TheProgress(0.0); });
+    const bool whole = this->Probe.trace(
+      samples, seconds, [this](double) { return !this->TheProgress || this->TheProgress(0.0); });
     this->Choice.aborted |= !whole;
     return whole;
   }
@@ -365,23 +375,24 @@ private:
     double voxels = 0.0;
     for (const Volume& volume : this->TheScene.volumes)
     {
-      voxels += volume.medium.lit
-                  ? static_cast<double>(volume.grid.dims[0]) * volume.grid.dims[1] * volume.grid.dims[2]
-                  : 0.0;
+      voxels += volume.medium.lit ? static_cast<double>(volume.grid.dims[0]) * volume.grid.dims[1] *
+                                      volume.grid.dims[2]
+                                  : 0.0;
     }
     const int threads =
       this->Wish.threads > 0 ? this->Wish.threads : tbb::info::default_concurrency();
     return seconds_of_choices + seconds_of_shadow_voxel * voxels *
-             static_cast<double>(this->TheScene.lights.size()) / threads;
+                                  static_cast<double>(this->TheScene.lights.size()) / threads;
   }
   double path_seconds(double paths) const { return paths * this->Probe.seconds_of_path(); }
   bool paths_fit() const { return this->Choice.seconds <= this->Wish.seconds; }
 
   void estimate_paths()
   {
-    this->Choice.seconds = this->Wish.tolerance > 0.0
-      ? this->path_seconds(this->Probe.paths_for(this->Wish.tolerance, this->Choice.beyond))
-      : std::numeric_limits<double>::infinity();
+    this->Choice.seconds =
+      this->Wish.tolerance > 0.0
+        ? this->path_seconds(this->Probe.paths_for(this->Wish.tolerance, this->Choice.beyond))
+        : std::numeric_limits<double>::infinity();
     this->Choice.error = this->Wish.tolerance;
   }
 
@@ -401,7 +412,8 @@ private:
   {
     this->Choice.method = Method::March;
     this->Choice.octaves = fit.octaves;
-    this->Choice.model_error = std::min(fit.error_above, fit.error > 0.0 ? 2.0 * fit.error : fit.error_above);
+    this->Choice.model_error =
+      std::min(fit.error_above, fit.error > 0.0 ? 2.0 * fit.error : fit.error_above);
     this->Choice.error = this->Choice.model_error;
     this->Choice.reason = reason;
     this->Choice.seconds = unknown; // until its steps are chosen
@@ -414,8 +426,11 @@ private:
     std::vector<int> list;
     for (const int octaves : trial_octaves)
     {
-      const bool same = octaves > 0 && std::all_of(this->TheScene.volumes.begin(), this->TheScene.volumes.end(),
-        [octaves](const Volume& v) { return !v.medium.lit || v.medium.octaves.count == octaves; });
+      const bool same =
+        octaves > 0 && std::all_of(this->TheScene.volumes.begin(),
+                         this->TheScene.volumes.end(),
+                         [octaves](const Volume& v)
+                         { return !v.medium.lit || v.medium.octaves.count == octaves; });
       if (!same)
       {
         list.push_back(octaves);
@@ -436,21 +451,32 @@ private:
         const MarchFit fit = this->Probe.fit(this->TheMarcher, octaves, tolerance);
         if (chance_of(fit.outside, fit.rays, 0.001) < doubt)
         {
-          this->add(Method::March, octaves, unknown, fit.error,
+          this->add(Method::March,
+            octaves,
+            unknown,
+            fit.error,
             words(fit.outside, " of ", fit.rays, " probed rays are surely beyond the tolerance"));
           continue;
         }
         if (fit.outside == 0 && fit.error_above <= share_of_model * tolerance)
         {
           this->refuse_paths(words(name_of_march(octaves), " is within the tolerance"));
-          this->take_march(fit, words(name_of_march(octaves), " differs from all scatterings by ", fit.rms,
-            " of white (root mean square over ", fit.rays, " probed rays; at the most ", fit.rms_above, ")"));
+          this->take_march(fit,
+            words(name_of_march(octaves),
+              " differs from all scatterings by ",
+              fit.rms,
+              " of white (root mean square over ",
+              fit.rays,
+              " probed rays; at the most ",
+              fit.rms_above,
+              ")"));
           return;
         }
         open.push_back(octaves);
       }
       left = open;
-      const bool enough = this->Probe.seconds() > share_of_probe * this->Choice.seconds || samples > most_samples;
+      const bool enough =
+        this->Probe.seconds() > share_of_probe * this->Choice.seconds || samples > most_samples;
       if (left.empty() || enough)
       {
         break;
@@ -464,12 +490,16 @@ private:
     for (const int octaves : left)
     {
       const MarchFit fit = this->Probe.fit(this->TheMarcher, octaves, tolerance);
-      this->add(Method::March, octaves, unknown, fit.error,
-        words("whether it is within the tolerance is not settled by a twentieth of the time of the paths"));
+      this->add(Method::March,
+        octaves,
+        unknown,
+        fit.error,
+        words("whether it is within the tolerance is not settled by a twentieth of the time of the "
+              "paths"));
     }
     this->take_paths(left.empty()
-        ? "no ray march is within the tolerance of all scatterings"
-        : "no ray march is known to be within the tolerance of all scatterings");
+                       ? "no ray march is within the tolerance of all scatterings"
+                       : "no ray march is known to be within the tolerance of all scatterings");
   }
 
   void refuse_paths(const std::string& verdict)
@@ -501,11 +531,15 @@ private:
     {
       if (!march || fit.octaves != best.octaves)
       {
-        this->add(Method::March, fit.octaves, unknown, fit.error, "the error that is expected is larger");
+        this->add(
+          Method::March, fit.octaves, unknown, fit.error, "the error that is expected is larger");
       }
     }
-    const std::string by = words(name_of_march(best.octaves), " is expected to be off by ", best.error,
-      " of white, paths in this time by ", this->Choice.error);
+    const std::string by = words(name_of_march(best.octaves),
+      " is expected to be off by ",
+      best.error,
+      " of white, paths in this time by ",
+      this->Choice.error);
     if (march)
     {
       this->refuse_paths("the error that is expected is larger");
@@ -539,13 +573,15 @@ MethodChoice choose_method(Marcher& marcher,
   choice.beyond = expected_beyond(static_cast<std::size_t>(wish.width) * wish.height);
   if (!scatters(scene))
   {
-    choice.reason = "no matter scatters light: the ray march solves the same integral as the truth, and its "
-                    "steps are its only error";
+    choice.reason =
+      "no matter scatters light: the ray march solves the same integral as the truth, and its "
+      "steps are its only error";
     return choice;
   }
   if (wish.forced)
   {
-    choice.reason = "not compared with paths because effects are forced, and paths simulate what they do";
+    choice.reason =
+      "not compared with paths because effects are forced, and paths simulate what they do";
     return choice;
   }
   if (const std::string why = why_no_paths(scene); !why.empty())

@@ -27,12 +27,12 @@ enum class Method
 /// "raymarch" or "pathtrace".
 const char* method_name(Method method);
 
-/// Whether lit matter sends on the light of lamps or sky. Where none does, the ray march's picture has
-/// no error but that of its steps.
+/// Whether lit matter sends on the light of lamps or sky. Where none does, the ray march's picture
+/// has no error but that of its steps.
 bool scatters(const Scene& scene);
 
-/// Why paths are not traced through a scene, or would not draw what is asked for, in words; empty where
-/// they are.
+/// Why paths are not traced through a scene, or would not draw what is asked for, in words; empty
+/// where they are.
 std::string why_no_paths(const Scene& scene);
 
 /// The share of a picture's pixels that may be expected beyond the tolerance so that, in 99 of 100
@@ -58,16 +58,16 @@ struct MarchFit
 
 /// A look at a few of a picture's rays: rays of its camera, spread evenly over the picture.
 ///
-/// Paths along them tell what tracing the picture takes: the variance and the time of a path. Marches
-/// along them tell how far single scattering and octaves are from all scatterings.
+/// Paths along them tell what tracing the picture takes: the variance and the time of a path.
+/// Marches along them tell how far single scattering and octaves are from all scatterings.
 class MethodProbe
 {
 public:
   /// One ray for so many pixels; 64 rays at the least, 1024 at the most.
   static constexpr double pixels_of_ray = 16.0;
 
-  /// Keeps a reference to the scene, a picture of width × height. Paths are traced through `traced`, with
-  /// `environment`, where that is the same scene lit by the environment itself.
+  /// Keeps a reference to the scene, a picture of width × height. Paths are traced through
+  /// `traced`, with `environment`, where that is the same scene lit by the environment itself.
   MethodProbe(const Scene& scene,
     const Scene& traced,
     std::shared_ptr<const PlacedEnvironment> environment,
@@ -79,8 +79,8 @@ public:
   MethodProbe(const MethodProbe&) = delete;
   MethodProbe& operator=(const MethodProbe&) = delete;
 
-  /// Traces on until each ray has so many paths, or `seconds` (0: no limit) have passed. Returns false
-  /// when aborted.
+  /// Traces on until each ray has so many paths, or `seconds` (0: no limit) have passed. Returns
+  /// false when aborted.
   bool trace(int samples, double seconds, const Progress& progress);
 
   std::uint64_t paths() const { return this->Followed; }
@@ -89,11 +89,11 @@ public:
   double seconds() const { return this->Seconds; }
   double seconds_of_path() const;
 
-  /// Paths of the whole picture, each pixel with as many as its noise asks for, for all but the share
-  /// `beyond` of its pixels to be within the tolerance.
+  /// Paths of the whole picture, each pixel with as many as its noise asks for, for all but the
+  /// share `beyond` of its pixels to be within the tolerance.
   double paths_for(double tolerance, double beyond) const;
-  /// The sum over the picture's pixels of the variances of a path: with n paths, shared out by their
-  /// noise, a pixel's standard error is √(sum / n).
+  /// The sum over the picture's pixels of the variances of a path: with n paths, shared out by
+  /// their noise, a pixel's standard error is √(sum / n).
   double variance() const;
   /// The error that all but the share are below with so many.
   double error_of(double paths, double beyond) const;
@@ -133,18 +133,18 @@ struct MethodOption
 struct MethodChoice
 {
   Method method = Method::March;
-  int octaves = 0;     ///< of a march; 0: as the media have them
-  std::string reason;  ///< in words, with the figures
-  bool compared = false; ///< whether march and paths were compared
-  double seconds = 0.0;  ///< expected of the picture; NaN: not known
-  double error = 0.0;    ///< expected, of 99.9 % of the pixels; NaN: not known
+  int octaves = 0;          ///< of a march; 0: as the media have them
+  std::string reason;       ///< in words, with the figures
+  bool compared = false;    ///< whether march and paths were compared
+  double seconds = 0.0;     ///< expected of the picture; NaN: not known
+  double error = 0.0;       ///< expected, of 99.9 % of the pixels; NaN: not known
   double model_error = 0.0; ///< of a march: the part that is for what it leaves out of the light
   double beyond = 0.001;    ///< share of pixels to be expected beyond the tolerance
   std::vector<MethodOption> options;
   std::size_t probe_rays = 0;
   std::uint64_t probe_paths = 0;
   double probe_seconds = 0.0;
-  double variance = 0.0; ///< MethodProbe::variance; 0: not probed
+  double variance = 0.0;              ///< MethodProbe::variance; 0: not probed
   double probe_seconds_of_path = 0.0; ///< of one path, by all threads together
   bool aborted = false;
 };
@@ -157,19 +157,20 @@ struct MethodWish
   int height = 1;
   int threads = 0;
   std::uint32_t seed = 1;
-  /// What paths are traced through, with `environment`: the scene, but lit by its environment itself rather
-  /// than by lights in its place. Null: the scene.
+  /// What paths are traced through, with `environment`: the scene, but lit by its environment
+  /// itself rather than by lights in its place. Null: the scene.
   const Scene* traced = nullptr;
   std::shared_ptr<const PlacedEnvironment> environment;
   bool forced = false; ///< effects are on or off by the caller's will
 };
 
-/// Chooses for one picture. What scatters is probed: a few paths first, for the time of the picture; then,
-/// if that is not less than twice what the march would need before it began, marches with 1 and 8 octaves and as the media have them. A march is
-/// turned down as soon as more rays are surely beyond the tolerance than a share of 0.001 explains, and
-/// taken when none is and 4½ times the most that its root mean square error may be is within seven tenths of
-/// the tolerance; else the paths of the probe are doubled until either holds or they have taken a
-/// twentieth of what the picture would: paths then.
+/// Chooses for one picture. What scatters is probed: a few paths first, for the time of the
+/// picture; then, if that is not less than twice what the march would need before it began, marches
+/// with 1 and 8 octaves and as the media have them. A march is turned down as soon as more rays are
+/// surely beyond the tolerance than a share of 0.001 explains, and taken when none is and 4½ times
+/// the most that its root mean square error may be is within seven tenths of the tolerance; else
+/// the paths of the probe are doubled until either holds or they have taken a twentieth of what the
+/// picture would: paths then.
 MethodChoice choose_method(Marcher& marcher,
   const Scene& scene,
   const MethodWish& wish,

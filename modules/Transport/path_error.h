@@ -19,13 +19,13 @@ public:
   double rms() const;
 
   /// What all but a share of the pixels' errors are expected to be below, each pixel's error being
-  /// normally distributed with the largest standard error of its channels. To 1 %; +infinity where a
-  /// variance is no number.
+  /// normally distributed with the largest standard error of its channels. To 1 %; +infinity where
+  /// a variance is no number.
   double quantile(double beyond = 0.001) const;
 
-  /// Where the pixels are to have paths of their own number: the standard error that those with a larger
-  /// one must come down to, so that all but a share of the errors are below `error`. +infinity where they
-  /// are already, or a variance is no number.
+  /// Where the pixels are to have paths of their own number: the standard error that those with a
+  /// larger one must come down to, so that all but a share of the errors are below `error`.
+  /// +infinity where they are already, or a variance is no number.
   double cap(double error, double beyond) const;
   /// Paths that it takes to bring all standard errors down to this.
   double paths_to(double cap) const;

@@ -24,8 +24,8 @@ constexpr double shortest = 1.0 / 64.0;
 /// Of the time: what the quickest picture may take, and what all are to take.
 constexpr double share_of_quickest = 0.5;
 constexpr double share_of_all = 0.95;
-/// Of what is left then: what a second picture may take that tells what steps cost, and how much shorter
-/// its steps are.
+/// Of what is left then: what a second picture may take that tells what steps cost, and how much
+/// shorter its steps are.
 constexpr double share_of_second = 0.15;
 constexpr double step_of_second = 8.0;
 /// Of the quickest picture's time, what goes with its steps, before there is a second.
@@ -43,8 +43,9 @@ double seconds_since(Clock::time_point start)
 
 bool is_lit(const Scene& scene)
 {
-  return scene.fog.enabled ||
-         std::any_of(scene.volumes.begin(), scene.volumes.end(), [](const Volume& v) { return v.medium.lit; });
+  return scene.fog.enabled || std::any_of(scene.volumes.begin(),
+                                scene.volumes.end(),
+                                [](const Volume& v) { return v.medium.lit; });
 }
 
 /// What 99.9 % of the pixels changed by no more than.
@@ -60,7 +61,8 @@ double change(const Film& longer, const Film& shorter)
         std::abs(double(longer.transmittance[c][pixel]) - shorter.transmittance[c][pixel]) });
     }
   }
-  const auto at = changes.begin() + static_cast<std::ptrdiff_t>(changes.size() - 1 - changes.size() / 1000);
+  const auto at =
+    changes.begin() + static_cast<std::ptrdiff_t>(changes.size() - 1 - changes.size() / 1000);
   std::nth_element(changes.begin(), at, changes.end());
   return *at;
 }
@@ -180,7 +182,9 @@ TimedMarch march_within(Marcher& marcher,
   const auto march = [&](const Scene& drawn, double step, double until, Film& target)
   {
     settings.step = step * edge;
-    return marcher.render(drawn, settings, target,
+    return marcher.render(drawn,
+      settings,
+      target,
       [&](double done)
       {
         fraction = done;
@@ -207,8 +211,10 @@ TimedMarch march_within(Marcher& marcher,
     Film small(std::max(1, static_cast<int>(film.width / result.distance)),
       std::max(1, static_cast<int>(film.height / result.distance)));
     result.predicted = rest;
-    result.march = march(for_size(scene, film.width, film.height, small.width, small.height), step,
-      std::numeric_limits<double>::infinity(), small);
+    result.march = march(for_size(scene, film.width, film.height, small.width, small.height),
+      step,
+      std::numeric_limits<double>::infinity(),
+      small);
     film = scaled(small, film.width, film.height);
     result.completed = !aborted;
     return result;
@@ -250,7 +256,8 @@ TimedMarch march_within(Marcher& marcher,
     result.predicted = fixed + by_step / next;
     result.estimated_error = change(film, better) / (step / next - 1.0);
     by_step = std::clamp((now.seconds - result.march.seconds) / (1.0 / next - 1.0 / step),
-      0.1 * now.seconds * next, now.seconds * next);
+      0.1 * now.seconds * next,
+      now.seconds * next);
     fixed = now.seconds - by_step / next;
     result.march = now;
     step = next;

@@ -10,26 +10,27 @@ namespace brume
 
 struct TimedMarch
 {
-  MarchStatistics march;     ///< of the picture that was kept
-  double distance = 1.0;     ///< pixels between its rays; above 1 it was scaled up
-  double predicted = 0.0;    ///< seconds of that picture alone
+  MarchStatistics march;  ///< of the picture that was kept
+  double distance = 1.0;  ///< pixels between its rays; above 1 it was scaled up
+  double predicted = 0.0; ///< seconds of that picture alone
   /// The largest error of 99.9 % of the pixels by their steps, as a fraction of white, from the two
   /// pictures that were made; NaN where there was time for one alone.
   double estimated_error = 0.0;
-  bool finest = false;       ///< the steps are the shortest that make a difference
+  bool finest = false; ///< the steps are the shortest that make a difference
   bool completed = false;
 };
 
-/// Fills the film in about so many seconds from now on, of any number above 0: the quickest picture first,
-/// one with shorter steps, to learn how long a step takes, then one with the steps that fill the time. Where
-/// that takes longer than was expected it is given up at `latest` seconds, and the one before is kept.
-/// Where not even the longest steps do, the picture has fewer rays, and is scaled up.
+/// Fills the film in about so many seconds from now on, of any number above 0: the quickest picture
+/// first, one with shorter steps, to learn how long a step takes, then one with the steps that fill
+/// the time. Where that takes longer than was expected it is given up at `latest` seconds, and the
+/// one before is kept. Where not even the longest steps do, the picture has fewer rays, and is
+/// scaled up.
 ///
-/// Steps are made no shorter than 1/64 of the smallest voxel edge, nor, with a `tolerance` above 0, than
-/// is expected to put 99.9 % of the pixels within that.
+/// Steps are made no shorter than 1/64 of the smallest voxel edge, nor, with a `tolerance` above 0,
+/// than is expected to put 99.9 % of the pixels within that.
 ///
-/// `base` tells all but steps, rule and refinements. Steps are at most 4 (1 in lit scenes) of the smallest
-/// voxel edge. Throws as Marcher::render does.
+/// `base` tells all but steps, rule and refinements. Steps are at most 4 (1 in lit scenes) of the
+/// smallest voxel edge. Throws as Marcher::render does.
 TimedMarch march_within(Marcher& marcher,
   const Scene& scene,
   const MarchSettings& base,
@@ -39,8 +40,8 @@ TimedMarch march_within(Marcher& marcher,
   Film& film,
   const Progress& progress = {});
 
-/// Seconds that a march of a picture of this size takes, without what is prepared, from a few strips of it:
-/// rays that lie farther apart than the picture's would take longer.
+/// Seconds that a march of a picture of this size takes, without what is prepared, from a few
+/// strips of it: rays that lie farther apart than the picture's would take longer.
 double seconds_of_march(Marcher& marcher,
   const Scene& scene,
   const MarchSettings& settings,

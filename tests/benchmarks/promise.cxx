@@ -1,6 +1,6 @@
-// Whether --tolerance and --time-budget keep their promise: vtkBrumeSmartVolumeMapper on the sample scenes,
-// against the truth, and against the cheapest setting that meets it. With --quick a test: small
-// pictures, fewer scenes, and a promise that is not kept is a failure.
+// Whether --tolerance and --time-budget keep their promise: vtkBrumeSmartVolumeMapper on the sample
+// scenes, against the truth, and against the cheapest setting that meets it. With --quick a test:
+// small pictures, fewer scenes, and a promise that is not kept is a failure.
 #include "command.h"
 #include "scene_options.h"
 #include "volume_scene.h"
@@ -70,8 +70,15 @@ std::vector<Case> cases(bool quick)
       { "smoke", "sample:smoke", 128, { 0.05, 0.002 }, true },
       { "fog", "sample:fog", 128, { 0.01 }, true },
       { "smoke, lit",
-        "sample:smoke --extinction 9 --albedo 0.55,0.5,0.45 --anisotropy 0.3" + lit, 40, { 0.05, 0.02 }, true },
-      { "fog, thin, lit", "sample:fog --extinction 0.00003 --anisotropy 0.6" + lit, 40, { 0.05 }, true },
+        "sample:smoke --extinction 9 --albedo 0.55,0.5,0.45 --anisotropy 0.3" + lit,
+        40,
+        { 0.05, 0.02 },
+        true },
+      { "fog, thin, lit",
+        "sample:fog --extinction 0.00003 --anisotropy 0.6" + lit,
+        40,
+        { 0.05 },
+        true },
     };
   }
   return {
@@ -80,14 +87,29 @@ std::vector<Case> cases(bool quick)
     { "head CT", "sample:head-ct", 256, all, false },
     { "smoke", "sample:smoke", 512, all, false },
     { "cloud, absorbing", "sample:cloud --extinction 0.005", 512, all, false },
-    { "cloud, lit", "sample:cloud --extinction 0.05 --anisotropy 0.6" + lit, 32, all, false },
-    { "cloud, thin, lit", "sample:cloud --extinction 0.002 --anisotropy 0.6" + lit, 64, all, false },
-    { "fog, lit", "sample:fog --extinction 0.005 --anisotropy 0.6" + lit, 64, all, false },
-    { "fog, thin, lit", "sample:fog --extinction 0.0002 --anisotropy 0.6" + lit, 512, { 0.05, 0.01 }, false },
-    { "smoke, lit", "sample:smoke --extinction 9 --albedo 0.55,0.5,0.45 --anisotropy 0.3" + lit, 64, all,
+    // A tolerance of 0.002 would take an hour.
+    { "cloud, lit", "sample:cloud --extinction 0.05 --anisotropy 0.6" + lit, 32, { 0.05, 0.01 }, false },
+    { "cloud, thin, lit",
+      "sample:cloud --extinction 0.002 --anisotropy 0.6" + lit,
+      64,
+      all,
       false },
-    { "head CT, lit", "sample:head-ct --preset ct-bone --shade off --anisotropy 0.3" + lit, 32,
-      { 0.05, 0.01 }, false },
+    { "fog, lit", "sample:fog --extinction 0.005 --anisotropy 0.6" + lit, 64, all, false },
+    { "fog, thin, lit",
+      "sample:fog --extinction 0.0002 --anisotropy 0.6" + lit,
+      512,
+      { 0.05, 0.01 },
+      false },
+    { "smoke, lit",
+      "sample:smoke --extinction 9 --albedo 0.55,0.5,0.45 --anisotropy 0.3" + lit,
+      64,
+      all,
+      false },
+    { "head CT, lit",
+      "sample:head-ct --preset ct-bone --shade off --anisotropy 0.3" + lit,
+      32,
+      { 0.05, 0.01 },
+      false },
   };
 }
 
@@ -112,7 +134,7 @@ VolumeScene make_scene(const Case& one)
 struct Truth
 {
   Film film;
-  std::vector<double> error; ///< standard error of each pixel; 0 by quadrature
+  std::vector<double> error;    ///< standard error of each pixel; 0 by quadrature
   std::vector<double> variance; ///< of one path
   double seconds_of_path = 0.0; ///< processor's
   bool paths = false;
@@ -143,8 +165,8 @@ Truth find_truth(const VolumeScene& scene, double tolerance, const Settings& set
   paths.samples_per_pixel = 64;
   const double before = processor_seconds();
   const PathStatistics even = tracer.render(*drawn, paths, truth.film);
-  truth.seconds_of_path =
-    (processor_seconds() - before) / (static_cast<double>(paths.samples_per_pixel) * truth.film.size());
+  truth.seconds_of_path = (processor_seconds() - before) /
+                          (static_cast<double>(paths.samples_per_pixel) * truth.film.size());
   for (std::size_t i = 0; i < truth.film.size(); ++i)
   {
     truth.variance[i] = even.samples_per_pixel * truth.film.error[i] * truth.film.error[i] / 9.0;
@@ -164,9 +186,9 @@ Truth find_truth(const VolumeScene& scene, double tolerance, const Settings& set
 
 struct Within
 {
-  double share = 0.0;   ///< of pixels
+  double share = 0.0;    ///< of pixels
   double allowing = 0.0; ///< with three of the truth's standard errors allowed for
-  double error = 0.0;   ///< of 99.9 %
+  double error = 0.0;    ///< of 99.9 %
 };
 
 Within compare(const Film& film, const Truth& truth, double tolerance)
@@ -178,14 +200,16 @@ Within compare(const Film& film, const Truth& truth, double tolerance)
   {
     for (int c = 0; c < 3; ++c)
     {
-      errors[i] = std::max({ errors[i], std::abs(double(film.radiance[c][i]) - truth.film.radiance[c][i]),
+      errors[i] = std::max({ errors[i],
+        std::abs(double(film.radiance[c][i]) - truth.film.radiance[c][i]),
         std::abs(double(film.transmittance[c][i]) - truth.film.transmittance[c][i]) });
     }
     within += errors[i] <= tolerance;
     allowing += errors[i] <= tolerance + 3.0 * truth.error[i];
   }
   const double count = static_cast<double>(film.size());
-  const auto at = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() - 1 - errors.size() / 1000);
+  const auto at =
+    errors.begin() + static_cast<std::ptrdiff_t>(errors.size() - 1 - errors.size() / 1000);
   std::nth_element(errors.begin(), at, errors.end());
   return { within / count, allowing / count, *at };
 }
@@ -215,7 +239,8 @@ std::vector<Point> march_points(const VolumeScene& scene, const Truth& truth)
     {
       break;
     }
-    for (double step = truth.paths ? 1.0 : 4.0; step > (truth.paths ? 0.4 : 0.014); step *= std::sqrt(0.5))
+    for (double step = truth.paths ? 1.0 : 4.0; step > (truth.paths ? 0.4 : 0.014);
+         step *= std::sqrt(0.5))
     {
       VolumeScene own = scene;
       if (scene.medium && octaves > 0)
@@ -241,7 +266,8 @@ std::vector<Point> march_points(const VolumeScene& scene, const Truth& truth)
       {
         name << ", " << octaves << " octaves";
       }
-      points.push_back({ name.str(), processor_seconds() - before, compare(film, truth, 1.0).error });
+      points.push_back(
+        { name.str(), processor_seconds() - before, compare(film, truth, 1.0).error });
     }
   }
   return points;
@@ -276,7 +302,11 @@ void expect(bool kept, const std::string& what)
   }
 }
 
-nlohmann::json draw(const VolumeScene& scene, double tolerance, double budget, Film& film, double& seconds)
+nlohmann::json draw(const VolumeScene& scene,
+  double tolerance,
+  double budget,
+  Film& film,
+  double& seconds)
 {
   vtkNew<vtkBrumeSmartVolumeMapper> mapper;
   app::set_up(scene, mapper.Get());
@@ -291,7 +321,8 @@ nlohmann::json draw(const VolumeScene& scene, double tolerance, double budget, F
 void check_tolerances(const Case& one, const VolumeScene& scene, const Settings& settings)
 {
   const Truth truth = find_truth(scene, one.tolerances.back(), settings);
-  const std::vector<Point> points = settings.quick ? std::vector<Point>() : march_points(scene, truth);
+  const std::vector<Point> points =
+    settings.quick ? std::vector<Point>() : march_points(scene, truth);
   for (const double tolerance : one.tolerances)
   {
     Film film(scene.width(), scene.height());
@@ -302,7 +333,8 @@ void check_tolerances(const Case& one, const VolumeScene& scene, const Settings&
     if (settings.quick)
     {
       const std::string where = one.name + " at " + std::to_string(tolerance);
-      expect(within.allowing >= 0.999, where + ": " + std::to_string(100.0 * within.allowing) +
+      expect(within.allowing >= 0.999,
+        where + ": " + std::to_string(100.0 * within.allowing) +
           " % of the pixels are within the tolerance, not 99.9");
       expect(statistics["tolerance_met"] == true && statistics["estimated_error"] <= tolerance,
         where + ": the statistics say that the tolerance is met");
@@ -340,18 +372,20 @@ void check_tolerances(const Case& one, const VolumeScene& scene, const Settings&
     }
     else
     {
-      took << std::setprecision(2) << "steps of " << statistics["step_in_voxels"].get<double>() << " voxels";
+      took << std::setprecision(2) << "steps of " << statistics["step_in_voxels"].get<double>()
+           << " voxels";
     }
-    std::cout << "| " << one.name << ", " << one.edge << "² | " << tolerance << " | " << std::setprecision(5)
-              << 100.0 * within.share;
+    std::cout << "| " << one.name << ", " << one.edge << "² | " << tolerance << " | "
+              << std::setprecision(5) << 100.0 * within.share;
     if (within.allowing != within.share)
     {
       std::cout << " (" << 100.0 * within.allowing << ")";
     }
     std::cout << " | " << std::setprecision(2) << within.error << " | "
-              << statistics["estimated_error"].get<double>() << " | " << took.str() << " | " << std::setprecision(3)
-              << seconds << " | " << cheapest.name << " | " << cheapest.seconds << " | "
-              << std::setprecision(2) << seconds / cheapest.seconds << "× |" << std::endl;
+              << statistics["estimated_error"].get<double>() << " | " << took.str() << " | "
+              << std::setprecision(3) << seconds << " | " << cheapest.name << " | "
+              << cheapest.seconds << " | " << std::setprecision(2) << seconds / cheapest.seconds
+              << "× |" << std::endl;
   }
 }
 
@@ -375,15 +409,17 @@ void check_budgets(const Case& one, const VolumeScene& scene, const Settings& se
       const bool kept = seconds <= 1.2 * budget && (early || seconds >= 0.8 * budget);
       if (!settings.quick)
       {
-        std::cout << "| " << one.name << ", " << one.edge << "² | " << budget << " | " << std::setprecision(3)
-                  << seconds << " | "
+        std::cout << "| " << one.name << ", " << one.edge << "² | " << budget << " | "
+                  << std::setprecision(3) << seconds << " | "
                   << statistics["method"]["chosen"].get<std::string>()
                   << (early ? ", " + statistics["ended_early"].get<std::string>() : "") << " | "
                   << statistics["estimated_error"] << " |" << std::endl;
       }
       else if (kept || attempt == most)
       {
-        expect(kept, one.name + ": a budget of " + std::to_string(budget) + " s took " + std::to_string(seconds));
+        expect(kept,
+          one.name + ": a budget of " + std::to_string(budget) + " s took " +
+            std::to_string(seconds));
         break;
       }
     }
@@ -396,7 +432,8 @@ int main(int argc, char** argv)
 {
   Settings settings;
   CLI::App program{ "Whether --tolerance and --time-budget keep their promise" };
-  program.add_flag("--quick", settings.quick, "A test: small pictures, and a failure where it is not kept");
+  program.add_flag(
+    "--quick", settings.quick, "A test: small pictures, and a failure where it is not kept");
   program.add_option("--only", settings.only, "Scenes whose name has this in it");
   program.add_option("--truth-seconds", settings.truth_seconds, "Time of each truth by paths [60]");
   CLI11_PARSE(program, argc, argv);
@@ -405,8 +442,9 @@ int main(int argc, char** argv)
     std::vector<std::function<void()>> later;
     if (!settings.quick)
     {
-      std::cout << "| scene | tolerance | % within | error of 99.9 % | estimated | chosen | processor s | "
-                   "cheapest that meets it | s | ratio |\n|---|---|---|---|---|---|---|---|---|---|\n";
+      std::cout
+        << "| scene | tolerance | % within | error of 99.9 % | estimated | chosen | processor s | "
+           "cheapest that meets it | s | ratio |\n|---|---|---|---|---|---|---|---|---|---|\n";
     }
     for (const Case& one : cases(settings.quick))
     {
@@ -420,7 +458,8 @@ int main(int argc, char** argv)
     }
     if (!settings.quick)
     {
-      std::cout << "\n| scene | budget, s | took, s | chosen | estimated error |\n|---|---|---|---|---|\n";
+      std::cout
+        << "\n| scene | budget, s | took, s | chosen | estimated error |\n|---|---|---|---|---|\n";
     }
     for (const auto& check : later)
     {
