@@ -23,7 +23,8 @@
  * best that the time allows.
  *
  * Some scenes are not comparable, as paths do not draw them: other blend modes than composite,
- * gradient shading, silver lining, powder, vtkBrumeFog, effects that are forced. They are marched,
+ * gradient shading, silver lining, powder, effects that are forced, fog in which paths have no end
+ * (vtkBrumePathTraceMapper). They are marched,
  * with the march's own estimate, and GetStatistics() tells why.
  *
  * GetStatistics() has, beside what the mapper of the method tells, `method`: what was chosen and

@@ -64,12 +64,13 @@ public:
 
   void trace()
   {
-    // Lanes that wait for the same thing are served together, when they are enough.
-    constexpr int enough = lane_count >= 4 ? lane_count / 4 : 1;
+    // Lanes that wait are served together, when they are enough; idle ones are filled sooner.
+    constexpr int enough = lane_count >= 2 ? lane_count * 5 / 8 : 1;
+    constexpr int few = lane_count >= 8 ? lane_count / 8 : 1;
     for (;;)
     {
       const int idle = lane_count - count(Alive);
-      if (Next < Paths && (idle >= enough || idle == lane_count))
+      if (Next < Paths && (idle >= few || idle == lane_count))
       {
         refill();
       }
