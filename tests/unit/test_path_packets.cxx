@@ -23,10 +23,12 @@ namespace
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr int paths = 2000;
-constexpr double slack = 0.2; // of what is counted
+constexpr double slack = 0.2;      // of what is counted
+constexpr double most_noise = 8.0; // few paths of dark matter tell little of their noise
 #else
 constexpr int paths = 20000;
 constexpr double slack = 0.07;
+constexpr double most_noise = 2.0;
 #endif
 
 double wave(int i, int j, int k)
@@ -113,7 +115,7 @@ void expect_alike(const std::string& name,
       EXPECT_NEAR(a.value[c], b.value[c], 4.5 * sigma + 1e-6) << "channel " << c;
       // Not only the mean: noise and work are alike, too.
       const double noise = std::sqrt(b.variance[c] / a.variance[c]);
-      EXPECT_TRUE(noise > 0.5 && noise < 2.0) << noise;
+      EXPECT_LT(std::abs(std::log(noise)), std::log(most_noise)) << noise;
     }
     EXPECT_GT(counts.scatterings, count / 20u);
     EXPECT_NEAR(double(packet_counts.scatterings) / counts.scatterings, 1.0, slack);
