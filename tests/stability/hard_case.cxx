@@ -93,8 +93,10 @@ void HardCase::ran(const std::string& by)
   }
 }
 
-HardCase& HardCase::measure(
-  double value, double bound, const std::string& unit, const std::string& by)
+HardCase& HardCase::measure(double value,
+  double bound,
+  const std::string& unit,
+  const std::string& by)
 {
   EXPECT_LE(value, bound) << this->Name << ": " << unit << ", " << by;
   EXPECT_GE(value, 0.0) << this->Name << ": " << unit << ", " << by;
@@ -117,23 +119,29 @@ HardCase& HardCase::measure(
 
 HardCase& HardCase::holds(bool held, const std::string& what, const std::string& by)
 {
-  EXPECT_TRUE(held) << this->Name << ": " << what << ", " << by;
+  return this->holds(held ? 1 : 0, 1, what, by);
+}
+
+HardCase& HardCase::holds(int held, int tried, const std::string& what, const std::string& by)
+{
+  EXPECT_EQ(held, tried) << this->Name << ": " << what << ", " << by;
   this->ran(by);
   for (Measured& known : this->Figures)
   {
     if (known.counted && known.unit == what)
     {
-      known.value += held ? 1.0 : 0.0;
-      known.bound += 1.0;
+      known.value += held;
+      known.bound += tried;
       return *this;
     }
   }
-  this->Figures.push_back({ what, held ? 1.0 : 0.0, 1.0, true });
+  this->Figures.push_back({ what, double(held), double(tried), true });
   return *this;
 }
 
-HardCase& HardCase::refuses(
-  const std::string& message, const std::string& part, const std::string& by)
+HardCase& HardCase::refuses(const std::string& message,
+  const std::string& part,
+  const std::string& by)
 {
   const bool named = !message.empty() && message.find(part) != std::string::npos;
   EXPECT_TRUE(named) << this->Name << ", " << by << ": \"" << message << "\" does not name \""
