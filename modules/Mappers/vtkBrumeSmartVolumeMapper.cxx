@@ -109,13 +109,33 @@ void vtkBrumeSmartVolumeMapper::March(Picture& picture)
   const brume::Scene& scene = choices.GetScene();
   const brume::MarchSettings& settings = choices.GetSettings();
 
-  picture.Predicted = brume::seconds_of_march(
-    this->Internal->Marcher, scene, settings, picture.Film.width, picture.Film.height);
+  const double unsteady = choices.GetEstimatedError() - choices.GetStepError();
+  const brume::MarchForecast forecast = brume::forecast_march(this->Internal->Marcher,
+    scene,
+    settings,
+    picture.Film.width,
+    picture.Film.height,
+    this->Tolerance - unsteady - picture.Choice.model_error,
+    picture.Choice.beyond);
+  picture.Distance = forecast.distance;
+  picture.Predicted = forecast.seconds / (forecast.distance * forecast.distance);
+  const auto part = [&forecast](int size)
+  { return (size + forecast.distance - 1) / forecast.distance; };
+  brume::Film small;
+  const bool whole = forecast.distance == 1;
+  if (!whole)
+  {
+    small = brume::Film(part(picture.Film.width), part(picture.Film.height));
+  }
   const double before = picture.Passed();
   const brume::MarchStatistics march = this->Internal->Marcher.render(scene,
     settings,
-    picture.Film,
+    whole ? picture.Film : small,
     [this](double fraction) { return this->TellProgress(fraction); });
+  if (!whole)
+  {
+    picture.Film = brume::scaled(small, picture.Film.width, picture.Film.height);
+  }
   picture.Prepared = before + march.seconds_prepare;
   if (march.rays == 0)
   {
@@ -124,8 +144,8 @@ void vtkBrumeSmartVolumeMapper::March(Picture& picture)
   picture.Statistics =
     brume::statistics_of(scene, settings, march, choices.GetPlan(), picture.Window);
   picture.Statistics["step_chosen_by"] = "tolerance";
-  const double error = choices.GetEstimatedError() + picture.Choice.model_error;
-  picture.Statistics["estimated_error"] = error;
+  picture.Statistics["estimated_error"] =
+    unsteady + picture.Choice.model_error + (whole ? choices.GetStepError() : forecast.error);
   picture.Statistics["tolerance_met"] =
     choices.IsToleranceMet() && picture.Choice.model_error <= this->Tolerance;
   if (brume::is_lit(scene))
