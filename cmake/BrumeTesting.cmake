@@ -1,9 +1,9 @@
-# How tests are declared. Every test carries one label, unit, analytic, regression, app or benchmark;
+# How tests are declared. Every test carries one label, unit, analytic, stability, regression, app or benchmark;
 # a test that cannot run here exits with 77 and says why on a line that begins with "skipped: ", and CTest
 # counts it as skipped.
 find_package(GTest REQUIRED)
 
-# What runs under sanitizers: the programs of the labels unit and analytic.
+# What runs under sanitizers: the programs of the labels unit, analytic and stability.
 add_custom_target(sanitized-tests)
 
 set(BRUME_TEST_OUTPUT "${PROJECT_BINARY_DIR}/tests/output")
@@ -22,7 +22,7 @@ function (_brume_set_test name label)
   endif ()
 endfunction ()
 
-# brume_add_test(NAME LABEL unit|analytic|regression|app|benchmark
+# brume_add_test(NAME LABEL unit|analytic|stability|regression|app|benchmark
 #   SOURCES … LIBRARIES … [ARGUMENTS …] [DISPLAY] [SERIAL])
 #
 # One GoogleTest program (or one with a main() of its own) and one CTest test of the same name, which
@@ -48,7 +48,7 @@ function (brume_add_test name)
   if (arg_DISPLAY)
     set(launcher "${PROJECT_SOURCE_DIR}/scripts/with-display")
   endif ()
-  if (arg_LABEL MATCHES "^(unit|analytic)$")
+  if (arg_LABEL MATCHES "^(unit|analytic|stability)$")
     add_dependencies(sanitized-tests ${name})
   endif ()
   add_test(NAME ${name} COMMAND ${launcher} $<TARGET_FILE:${name}> ${arg_ARGUMENTS})

@@ -42,15 +42,19 @@ LampPlace NearLamp::on_ray(const glm::dvec3& begin,
 {
   LampPlace result;
   const double foot = glm::dot(this->centre() - begin, along);
-  const double away = std::max(glm::length(begin + foot * along - this->centre()), tiny);
-  const double half = std::sqrt(std::max(this->radius * this->radius - away * away, 0.0));
+  const double passes = glm::length(begin + foot * along - this->centre());
+  const double half = std::sqrt(std::max(this->radius * this->radius - passes * passes, 0.0));
   const double from = std::max(foot - half, 0.0);
   const double to = std::min(foot + half, length);
   if (!(from < to))
   {
     return result;
   }
-  // The angle at the lamp between both ends, and the tangent of the sum of the first end's and a part
+  // Light of 1 / (c₀ + c₂ d²) is even in the angle at a point that is farther from the line by c₀ / c₂.
+  const glm::dvec3& attenuation = this->lamp->light().attenuation;
+  const double away =
+    std::max(std::sqrt(passes * passes + attenuation.x / attenuation.z), tiny);
+  // The angle there between both ends, and the tangent of the sum of the first end's and a part
   // of it, without differences of angles that are all but the same: a lamp may lie on the ray's line.
   const double first = from - foot;
   const double last = to - foot;

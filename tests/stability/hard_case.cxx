@@ -1,0 +1,152 @@
+#include "hard_case.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <utility>
+
+namespace brume_tests
+{
+
+namespace
+{
+
+/// All cases of this program that have ended, in their order.
+nlohmann::ordered_json& cases()
+{
+  static nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  return all;
+}
+
+void write_cases()
+{
+  const char* folder = std::getenv("BRUME_HARD_CASES");
+  if (!folder || !*folder)
+  {
+    return;
+  }
+  const std::filesystem::path path =
+    std::filesystem::path(folder) / (std::string(program_invocation_short_name) + ".json");
+  std::filesystem::create_directories(folder);
+  std::ofstream file(path);
+  file << cases().dump(2) << '\n';
+  EXPECT_TRUE(file.flush().good()) << path << ": cannot be written";
+}
+
+/// How near a figure is to what is not allowed; NaN is farthest.
+double strain(double value, double bound)
+{
+  if (std::isnan(value) || std::isnan(bound))
+  {
+    return INFINITY;
+  }
+  return bound > 0.0 ? value / bound : (value > 0.0 ? INFINITY : 0.0);
+}
+
+}
+
+HardCase::HardCase(std::string group, std::string name, std::string why, std::string promise)
+  : Group(std::move(group))
+  , Name(std::move(name))
+  , Why(std::move(why))
+  , Promise(std::move(promise))
+{
+}
+
+HardCase::~HardCase()
+{
+  EXPECT_FALSE(this->Figures.empty()) << this->Name << ": nothing was measured";
+  for (const auto& other : cases())
+  {
+    EXPECT_FALSE(other["group"] == this->Group && other["name"] == this->Name)
+      << this->Name << ": two cases of this name";
+  }
+  nlohmann::ordered_json one = { { "group", this->Group },
+    { "name", this->Name },
+    { "why", this->Why },
+    { "promise", this->Promise },
+    { "measured", nlohmann::ordered_json::array() },
+    { "by", this->By } };
+  for (const Measured& figure : this->Figures)
+  {
+    // JSON has no NaN and no infinity: null, which the page shows as it is.
+    one["measured"].push_back({ { "unit", figure.unit },
+      { "value", figure.value },
+      { "bound", figure.bound },
+      { "counted", figure.counted } });
+  }
+  cases().push_back(std::move(one));
+  write_cases();
+}
+
+void HardCase::ran(const std::string& by)
+{
+  if (!by.empty() && std::find(this->By.begin(), this->By.end(), by) == this->By.end())
+  {
+    this->By.push_back(by);
+  }
+}
+
+HardCase& HardCase::measure(double value,
+  double bound,
+  const std::string& unit,
+  const std::string& by)
+{
+  EXPECT_LE(value, bound) << this->Name << ": " << unit << ", " << by;
+  EXPECT_GE(value, 0.0) << this->Name << ": " << unit << ", " << by;
+  this->ran(by);
+  for (Measured& known : this->Figures)
+  {
+    if (!known.counted && known.unit == unit)
+    {
+      if (strain(value, bound) >= strain(known.value, known.bound))
+      {
+        known.value = value;
+        known.bound = bound;
+      }
+      return *this;
+    }
+  }
+  this->Figures.push_back({ unit, value, bound, false });
+  return *this;
+}
+
+HardCase& HardCase::holds(bool held, const std::string& what, const std::string& by)
+{
+  return this->holds(held ? 1 : 0, 1, what, by);
+}
+
+HardCase& HardCase::holds(int held, int tried, const std::string& what, const std::string& by)
+{
+  EXPECT_EQ(held, tried) << this->Name << ": " << what << ", " << by;
+  this->ran(by);
+  for (Measured& known : this->Figures)
+  {
+    if (known.counted && known.unit == what)
+    {
+      known.value += held;
+      known.bound += tried;
+      return *this;
+    }
+  }
+  this->Figures.push_back({ what, double(held), double(tried), true });
+  return *this;
+}
+
+HardCase& HardCase::refuses(const std::string& message,
+  const std::string& part,
+  const std::string& by)
+{
+  const bool named = !message.empty() && message.find(part) != std::string::npos;
+  EXPECT_TRUE(named) << this->Name << ", " << by << ": \"" << message << "\" does not name \""
+                     << part << '"';
+  return this->holds(named, "refused, with the reason", by);
+}
+
+}
