@@ -109,32 +109,55 @@ void vtkBrumeSmartVolumeMapper::March(Picture& picture)
   const brume::Scene& scene = choices.GetScene();
   const brume::MarchSettings& settings = choices.GetSettings();
 
-  const double unsteady = choices.GetEstimatedError() - choices.GetStepError();
+  const double others =
+    choices.GetEstimatedError() - choices.GetStepError() + picture.Choice.model_error;
+  const double room = this->Tolerance - others;
   const brume::MarchForecast forecast = brume::forecast_march(this->Internal->Marcher,
     scene,
     settings,
     picture.Film.width,
     picture.Film.height,
-    this->Tolerance - unsteady - picture.Choice.model_error,
+    room,
     picture.Choice.beyond);
-  picture.Distance = forecast.distance;
-  picture.Predicted = forecast.seconds / (forecast.distance * forecast.distance);
-  const auto part = [&forecast](int size)
-  { return (size + forecast.distance - 1) / forecast.distance; };
-  brume::Film small;
-  const bool whole = forecast.distance == 1;
-  if (!whole)
+  double error = choices.GetStepError();
+  double before = picture.Passed();
+  brume::MarchStatistics march;
+  const auto render = [&](brume::Film& film)
   {
-    small = brume::Film(part(picture.Film.width), part(picture.Film.height));
+    before = picture.Passed();
+    march = this->Internal->Marcher.render(
+      scene, settings, film, [this](double fraction) { return this->TellProgress(fraction); });
+    return march.completed;
+  };
+  picture.Predicted = forecast.seconds;
+  bool scaled = false;
+  if (forecast.distance > 1)
+  {
+    const auto part = [&forecast](int size)
+    { return (size + forecast.distance - 1) / forecast.distance; };
+    brume::Film small(part(picture.Film.width), part(picture.Film.height));
+    if (!render(small))
+    {
+      return;
+    }
+    error = brume::error_of_scaled(
+      this->Internal->Marcher, scene, settings, small, picture.Choice.beyond);
+    scaled = error <= room;
+    if (scaled)
+    {
+      picture.Film = brume::scaled(small, picture.Film.width, picture.Film.height);
+      picture.Distance = forecast.distance;
+      picture.Predicted /= forecast.distance * forecast.distance;
+      error = std::max(error, forecast.error);
+    }
+    else
+    {
+      error = choices.GetStepError(); // the strips missed something
+    }
   }
-  const double before = picture.Passed();
-  const brume::MarchStatistics march = this->Internal->Marcher.render(scene,
-    settings,
-    whole ? picture.Film : small,
-    [this](double fraction) { return this->TellProgress(fraction); });
-  if (!whole)
+  if (!scaled)
   {
-    picture.Film = brume::scaled(small, picture.Film.width, picture.Film.height);
+    render(picture.Film);
   }
   picture.Prepared = before + march.seconds_prepare;
   if (march.rays == 0)
@@ -144,8 +167,7 @@ void vtkBrumeSmartVolumeMapper::March(Picture& picture)
   picture.Statistics =
     brume::statistics_of(scene, settings, march, choices.GetPlan(), picture.Window);
   picture.Statistics["step_chosen_by"] = "tolerance";
-  picture.Statistics["estimated_error"] =
-    unsteady + picture.Choice.model_error + (whole ? choices.GetStepError() : forecast.error);
+  picture.Statistics["estimated_error"] = others + error;
   picture.Statistics["tolerance_met"] =
     choices.IsToleranceMet() && picture.Choice.model_error <= this->Tolerance;
   if (brume::is_lit(scene))

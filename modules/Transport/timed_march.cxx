@@ -54,19 +54,26 @@ bool is_lit(const Scene& scene)
                                 [](const Volume& v) { return v.medium.lit; });
 }
 
-/// What 99.9 % of the pixels changed by no more than.
-double change(const Film& longer, const Film& shorter)
+/// For each pixel the largest difference of a channel.
+std::vector<double> errors_of(const Film& film, const Film& truth)
 {
-  std::vector<double> changes(shorter.size(), 0.0);
-  for (std::size_t pixel = 0; pixel < changes.size(); ++pixel)
+  std::vector<double> errors(film.size(), 0.0);
+  for (std::size_t pixel = 0; pixel < errors.size(); ++pixel)
   {
     for (int c = 0; c < 3; ++c)
     {
-      changes[pixel] = std::max({ changes[pixel],
-        std::abs(double(longer.radiance[c][pixel]) - shorter.radiance[c][pixel]),
-        std::abs(double(longer.transmittance[c][pixel]) - shorter.transmittance[c][pixel]) });
+      errors[pixel] = std::max({ errors[pixel],
+        std::abs(double(film.radiance[c][pixel]) - truth.radiance[c][pixel]),
+        std::abs(double(film.transmittance[c][pixel]) - truth.transmittance[c][pixel]) });
     }
   }
+  return errors;
+}
+
+/// What 99.9 % of the pixels changed by no more than.
+double change(const Film& longer, const Film& shorter)
+{
+  std::vector<double> changes = errors_of(longer, shorter);
   const auto at =
     changes.begin() + static_cast<std::ptrdiff_t>(changes.size() - 1 - changes.size() / 1000);
   std::nth_element(changes.begin(), at, changes.end());
@@ -231,6 +238,21 @@ MarchForecast forecast_march(Marcher& marcher,
     forecast.error = error;
   }
   return forecast;
+}
+
+double error_of_scaled(Marcher& marcher,
+  const Scene& scene,
+  const MarchSettings& settings,
+  const Film& film,
+  double beyond)
+{
+  // A prime, so that rays lie at all places between those of the film.
+  const int edge = film.size() < 128 * 128 ? 37 : 61;
+  MarchSettings half = settings;
+  half.step *= 0.5;
+  Film truth(edge, edge);
+  marcher.render(scene, half, truth);
+  return all_but(errors_of(scaled(film, edge, edge), truth), beyond);
 }
 
 Film scaled(const Film& film, int width, int height)

@@ -63,6 +63,14 @@ MarchForecast forecast_march(Marcher& marcher,
   double room = 0.0,
   double beyond = 0.0);
 
+/// The error of such a picture, `film`, of all but the share `beyond` of the pixels, from some thousand
+/// rays all over it, marched with steps of half the length.
+double error_of_scaled(Marcher& marcher,
+  const Scene& scene,
+  const MarchSettings& settings,
+  const Film& film,
+  double beyond);
+
 /// A picture of another size: bilinear between the pixels' middles. Depths are the nearest pixel's.
 Film scaled(const Film& film, int width, int height);
 

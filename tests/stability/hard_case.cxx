@@ -87,9 +87,15 @@ HardCase::~HardCase()
 
 void HardCase::ran(const std::string& by)
 {
-  if (!by.empty() && std::find(this->By.begin(), this->By.end(), by) == this->By.end())
+  for (std::size_t at = 0; at < by.size();)
   {
-    this->By.push_back(by);
+    const std::size_t end = std::min(by.find(", ", at), by.size());
+    const std::string one = by.substr(at, end - at);
+    if (std::find(this->By.begin(), this->By.end(), one) == this->By.end())
+    {
+      this->By.push_back(one);
+    }
+    at = end + 2;
   }
 }
 

@@ -31,7 +31,7 @@ public:
   HardCase& operator=(const HardCase&) = delete;
 
   /// Expects value ≤ bound, both ≥ 0. `unit` is what the value is ("relative", "of white", "ulp");
-  /// `by` is what was run: an integrator, a mapper, a SIMD target.
+  /// `by` is what was run: an integrator, a mapper, a SIMD target, or several with ", " between.
   HardCase& measure(double value, double bound, const std::string& unit, const std::string& by);
 
   /// Expects that something held that has no figure. `what` says it in a few words ("no pixel is

@@ -289,6 +289,25 @@ struct Agreement
   int lost = 0;        ///< pixels that are off where paths do not differ
 };
 
+/// The mean variance of a pixel and those around it: few paths that are much alike tell little of
+/// what is rare and bright.
+inline double mean_around(const Film& paths, std::size_t pixel)
+{
+  const int x = static_cast<int>(pixel) % paths.width;
+  const int y = static_cast<int>(pixel) / paths.width;
+  double sum = 0.0;
+  int count = 0;
+  for (int j = std::max(y - 1, 0); j <= std::min(y + 1, paths.height - 1); ++j)
+  {
+    for (int i = std::max(x - 1, 0); i <= std::min(x + 1, paths.width - 1); ++i, ++count)
+    {
+      const double sigma = paths.error[j * paths.width + i] / 3.0;
+      sum += sigma * sigma;
+    }
+  }
+  return sum / count;
+}
+
 inline Agreement agreement(const Film& paths, const Truth& truth)
 {
   Agreement a;
@@ -321,7 +340,8 @@ inline Agreement agreement(const Film& paths, const Truth& truth)
     if (sigma > 0.0)
     {
       variance += sigma * sigma;
-      squares += most * most / (sigma * sigma);
+      const double careful = std::max(sigma * sigma, mean_around(paths, i));
+      squares += most * most / careful;
       ++a.count;
     }
     else
@@ -329,7 +349,8 @@ inline Agreement agreement(const Film& paths, const Truth& truth)
       unseen.push_back(most);
     }
   }
-  // No path of these pixels met anything; as noisy as the others they may be.
+  // No path of these pixels met anything, or all brought the same; as noisy as the others they may
+  // be.
   const double usual = std::sqrt(variance / std::max(a.count, 1)) + 1e-6;
   a.lost = static_cast<int>(
     std::count_if(unseen.begin(), unseen.end(), [usual](double off) { return off > 5.0 * usual; }));

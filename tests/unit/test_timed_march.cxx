@@ -116,6 +116,32 @@ TEST(ForecastMarch, SeesWhatIsTooFineForFewerRays)
   EXPECT_EQ(forecast_march(marcher, scene, settings, 96, 96, 0.02, 6e-4).distance, 1);
 }
 
+TEST(ErrorOfScaled, IsThatOfThePicture)
+{
+  const Voxels<float> soft = soft_ball();
+  const Voxels<float> rough = noise();
+  for (const Voxels<float>* voxels : { &soft, &rough })
+  {
+    const Scene scene = scene_of(*voxels, 4.0);
+    Marcher marcher;
+    MarchSettings settings;
+    settings.step = 0.25;
+    constexpr int edge = 96;
+    ReferenceSettings reference;
+    reference.tolerance = 2e-3;
+    Film truth(edge, edge);
+    render_reference(scene, reference, truth);
+    Film small(edge / 4, edge / 4);
+    marcher.render(scene, settings, small);
+    const double error = error_of(scaled(small, edge, edge), truth, 1);
+    const double found = error_of_scaled(marcher, scene, settings, small, 8e-4);
+    EXPECT_GE(found, 0.7 * error);
+    EXPECT_LE(found, 3.0 * error);
+    // A picture that misses all of it.
+    EXPECT_GE(error_of_scaled(marcher, scene, settings, Film(edge / 4, edge / 4), 8e-4), 0.3);
+  }
+}
+
 TEST(Reference, DoesNotSettleByChance)
 {
   // Sharp surfaces: the pieces' middles lie on this side or the other, and pictures of few and of
