@@ -94,10 +94,11 @@ private:
     const Vec3<Real>& d = line.delta;
     const Real* delta[3] = { &d.x, &d.y, &d.z };
     Real inverse[3];
+    Mask still[3]; // along these axes the ray meets no plane, in whichever it runs
     for (int axis = 0; axis < 3; ++axis)
     {
-      const Mask still = hn::Abs(*delta[axis]) < real(1e-30f);
-      inverse[axis] = hn::IfThenElse(still, real(1e30f), real(1.0f) / *delta[axis]);
+      still[axis] = hn::Abs(*delta[axis]) < real(1e-30f);
+      inverse[axis] = hn::IfThenElse(still[axis], real(1e30f), real(1.0f) / *delta[axis]);
     }
     Real at = rays.start;
     std::uint64_t samples = 0;
@@ -132,7 +133,8 @@ private:
         const Real plane = select(up, hn::Floor(from) + real(1.0f), hn::Ceil(from) - real(1.0f));
         const Real ahead = hn::MulAdd(plane - from, inverse[axis], at);
         const Real further = ahead + hn::Abs(inverse[axis]);
-        next = hn::Min(next, select(ahead > least, ahead, further));
+        const Real border = select(ahead > least, ahead, further);
+        next = hn::IfThenElse(still[axis], next, hn::Min(next, border));
       }
       next = hn::Min(max(next, least), rays.end);
       const Real half = (next - at) * real(0.5f);

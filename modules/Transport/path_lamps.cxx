@@ -35,6 +35,12 @@ struct Distances
 
 }
 
+double NearLamp::core() const
+{
+  const glm::dvec3& a = this->lamp->light().attenuation;
+  return a.x / a.z;
+}
+
 LampPlace NearLamp::on_ray(const glm::dvec3& begin,
   const glm::dvec3& along,
   double length,
@@ -42,14 +48,16 @@ LampPlace NearLamp::on_ray(const glm::dvec3& begin,
 {
   LampPlace result;
   const double foot = glm::dot(this->centre() - begin, along);
-  const double away = std::max(glm::length(begin + foot * along - this->centre()), tiny);
-  const double half = std::sqrt(std::max(this->radius * this->radius - away * away, 0.0));
+  const double nearest = glm::length(begin + foot * along - this->centre());
+  const double half = std::sqrt(std::max(this->radius * this->radius - nearest * nearest, 0.0));
   const double from = std::max(foot - half, 0.0);
   const double to = std::min(foot + half, length);
   if (!(from < to))
   {
     return result;
   }
+  // Where the light is even, places are: as though the ray passed the lamp that far away.
+  const double away = std::max(std::sqrt(nearest * nearest + this->core()), tiny);
   // The angle at the lamp between both ends, and the tangent of the sum of the first end's and a part
   // of it, without differences of angles that are all but the same: a lamp may lie on the ray's line.
   const double first = from - foot;
@@ -72,7 +80,7 @@ LampPlace NearLamp::from_place(const glm::dvec3& begin,
   LampPlace result;
   const glm::dvec3 apart = begin - this->centre();
   const double scale = std::max(glm::length(apart), tiny);
-  const Distances around_lamp{ scale, this->radius };
+  const Distances around_lamp{ std::sqrt(scale * scale + this->core()), this->radius };
   const Distances around_place{ scale, scale + this->radius };
   // From far away, places are only drawn around the lamp: the way is then no shorter than half as
   // far.
