@@ -15,8 +15,8 @@ using brume_tests::HardCase;
 namespace
 {
 
-constexpr int width = 45; // some tiles, and packets that are cut
-constexpr int height = 36;
+constexpr int width = 37; // some tiles, and packets that are cut
+constexpr int height = 35;
 
 Film drawn(const Artist& artist, int threads = 1, int w = width, int h = height)
 {
@@ -37,7 +37,7 @@ TEST(Machines, AnyNumberOfThreads)
   for (const Artist& artist : artists())
   {
     const Film one = drawn(artist);
-    for (const int count : { 2, 3, 8, 16, 33, 64 })
+    for (const int count : { 2, 7, 64 })
     {
       threads.holds(same_bits(one, drawn(artist, count)), "the same bits", artist.name);
     }
@@ -104,7 +104,7 @@ TEST(Machines, PicturesAtOnce)
   {
     alone.push_back(drawn(artist));
   }
-  constexpr int turns = 2;
+  constexpr int turns = 1;
   const std::size_t count = alone.size();
   std::vector<std::atomic<int>> same(count);
   std::vector<std::thread> workers;
@@ -148,7 +148,7 @@ TEST(Machines, CancelledPictures)
   {
     const Film film = drawn(fresh[i]);
     int times = 0;
-    for (int moment = 1; moment < 4096; moment += 1 + moment / 2)
+    for (int moment = 1; moment < 4096; moment += 1 + moment)
     {
       int calls = 0;
       Film left(width, height);
