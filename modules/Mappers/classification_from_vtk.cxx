@@ -162,6 +162,56 @@ void drop_if_one(std::vector<double>& factors)
   }
 }
 
+/// Whether all of a function's nodes are finite numbers. VTK sorts them by their places, and NaN has
+/// none.
+template <class Function>
+bool is_finite(Function* function)
+{
+  double node[6] = { 0, 0, 0, 0, 0, 0 }; // the longer of vtkPiecewiseFunction's and the colours'
+  for (int i = 0; function && i < function->GetSize(); ++i)
+  {
+    function->GetNodeValue(i, node);
+    if (!std::all_of(node, node + 6, [](double v) { return std::isfinite(v); }))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// What is wrong with the functions that a property classifies a volume and its labels with.
+std::string what_is_not_finite(vtkVolumeProperty* property, const Functions& f, int volume)
+{
+  const auto wrong = [](const char* name)
+  {
+    return std::string("the ") + name +
+           " function has a node that is not finite: remove it, or build the function anew";
+  };
+  if (!is_finite(f.opacity))
+  {
+    return wrong("scalar opacity");
+  }
+  if (!is_finite(f.gray) || !is_finite(f.rgb))
+  {
+    return wrong("colour");
+  }
+  if (!property->GetDisableGradientOpacity(volume) &&
+      !is_finite(property->GetStoredGradientOpacity(volume)))
+  {
+    return wrong("gradient opacity");
+  }
+  for (int label : property->GetLabelMapLabels())
+  {
+    if (!is_finite(property->GetLabelScalarOpacity(label)) ||
+        !is_finite(property->GetLabelColor(label)) ||
+        !is_finite(property->GetLabelGradientOpacity(label)))
+    {
+      return wrong(("label " + std::to_string(label) + "'s").c_str());
+    }
+  }
+  return {};
+}
+
 Functions functions_of(vtkVolumeProperty* property, int index, bool coloured)
 {
   Functions f;
@@ -231,6 +281,12 @@ std::string fill_2d(Classification& c,
       }
     }
   }
+  if (!std::all_of(c.value_gradient.begin(),
+        c.value_gradient.end(),
+        [](double v) { return std::isfinite(v); }))
+  {
+    return "the 2D transfer function has a pixel that is not finite: give it numbers";
+  }
   return {};
 }
 
@@ -256,6 +312,11 @@ std::string classification_from_vtk(vtkVolumeProperty* property,
     return fill_2d(c, property, grid, volume);
   }
   const Functions f = functions_of(property, volume, shape.colour != VoxelColour::RGB);
+  const std::string wrong = what_is_not_finite(property, f, volume);
+  if (!wrong.empty())
+  {
+    return wrong;
+  }
   const double* range = grid.GetRange(shape.component);
   set_range(c, f, range, shape.colour == VoxelColour::First ? grid.GetRange(0) : range, whole);
   fill(c, f, table_nodes);

@@ -18,6 +18,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace brume
 {
@@ -67,6 +68,13 @@ VoxelType voxel_type(int vtkType, bool& converts)
       converts = true;
       return VoxelType::Float32;
   }
+}
+
+/// Numbers beyond the largest float count as that; infinities stay what they are.
+float nearest_float(double value)
+{
+  constexpr double most = std::numeric_limits<float>::max();
+  return static_cast<float>(std::isinf(value) ? value : std::min(std::max(value, -most), most));
 }
 
 }
@@ -235,6 +243,10 @@ std::string GridFromVTK::UpdatePlace(vtkImageData* image, const int extent[6], b
     {
       return "the input's spacing must not be 0: set it with vtkImageData::SetSpacing";
     }
+    if (!std::isfinite(this->Origin[axis]))
+    {
+      return "the input's origin is not finite: set it with vtkImageData::SetOrigin";
+    }
     this->First[axis] = extent[2 * axis] + (cells ? 0.5 : 0.0);
     shift[3][axis] = this->First[axis];
   }
@@ -286,7 +298,7 @@ void GridFromVTK::ReadVoxels(vtkDataArray* scalars, const int dims[3], bool cell
     const void* from = in ? static_cast<const void*>(in + i * voxelBytes) : voxel.data();
     for (int c = 0; !in && c < grid.components; ++c)
     {
-      voxel[c] = static_cast<float>(scalars->GetComponent(i, c));
+      voxel[c] = nearest_float(scalars->GetComponent(i, c));
     }
     for (int copy = 0; copy < copies; ++copy, out += voxelBytes)
     {

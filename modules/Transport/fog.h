@@ -42,7 +42,8 @@ struct FogRay
   /// Lights at a place count as passed by at no less than this times their distance. A ray that
   /// stands for a pixel takes half of the pixel's half width, in radians: what light falls off with
   /// the square of the distance then shows with its mean over the pixel where the ray meets the
-  /// light, and not as infinite. 0: a ray without width.
+  /// light, and not as infinite. Not so lights whose attenuation bounds what is near them within that
+  /// distance: they are what they are on the ray. 0: a ray without width.
   double spread = 0.0;
 };
 

@@ -63,7 +63,7 @@ public:
     this->Aside = offset + ray.direction * this->Nearest;
     this->Distance = glm::length(this->Aside);
     const double width = ray.spread * std::abs(this->Nearest);
-    if (this->Distance < width)
+    if (this->Distance < width && core(lamp.shape.attenuation) < width)
     {
       this->Aside = this->Distance > 0.0 ? this->Aside * (width / this->Distance)
                                          : aside_of(ray.direction) * width;
@@ -124,6 +124,15 @@ public:
   }
 
 private:
+  /// The distance within which light of 1 / (a + b d + c d²) hardly changes.
+  static double core(const float attenuation[3])
+  {
+    const double a = attenuation[0];
+    const double b = attenuation[1];
+    const double c = attenuation[2];
+    return a > 0.0 ? 2.0 * a / (b + std::sqrt(b * b + 4.0 * a * c)) : 0.0;
+  }
+
   static glm::dvec3 aside_of(const glm::dvec3& direction)
   {
     const glm::dvec3 axis = std::abs(direction.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);

@@ -320,7 +320,7 @@ void LitTables::find_channels(const Scene& scene)
 
 void LitTables::find_deep_enough(const Scene& scene)
 {
-  constexpr double thin = 1e-3; // octaves and channels that are thinner see little matter anyway
+  constexpr double thin = 1e-3; // an octave sends no more of the light than it sees of the matter
   LitTask& task = this->Task;
   double thinnest = 1.0;
   for (std::size_t k = 0; k < scene.volumes.size(); ++k)
@@ -336,9 +336,9 @@ void LitTables::find_deep_enough(const Scene& scene)
     task.has_channel[c] = std::any_of(task.volumes.begin(),
       task.volumes.begin() + static_cast<std::ptrdiff_t>(scene.volumes.size()),
       [c](const LitVolume& v) { return v.channels[c] > 0.0f; });
-    channel = task.channels[c] > thin ? std::min(channel, double(task.channels[c])) : channel;
+    channel = task.channels[c] > 0.0f ? std::min(channel, double(task.channels[c])) : channel;
   }
-  task.deep_enough = static_cast<float>(30.0 / (thinnest * channel));
+  task.deep_enough = static_cast<float>(std::min(30.0 / (thinnest * channel), 1e30));
   task.components = scene.mixture == Mixture::Components && scene.volumes.size() > 1;
 }
 

@@ -7,17 +7,27 @@
 namespace brume
 {
 
+namespace
+{
+
+/// Tentative collisions in a stretch of a cell, at the most, unless many are real.
+constexpr double few_collisions = 8.0;
+
+}
+
 BrickWalk::BrickWalk(const PathBricks& bricks,
   const glm::dvec3& begin,
   const glm::dvec3& along,
   double from,
-  double to)
+  double to,
+  double scale)
   : Bricks(&bricks)
   , Begin(begin)
   , Along(along)
   , Inverse(1.0 / along)
   , At(from)
   , End(to)
+  , Scale(scale)
 {
   this->settle(from, true);
 }
@@ -61,6 +71,134 @@ std::size_t BrickWalk::index() const
 }
 
 bool BrickWalk::next()
+{
+  if (this->StretchAt < this->StretchEnd && this->next_stretch())
+  {
+    return true;
+  }
+  this->Stretched = false;
+  if (this->CellAt < this->CellEnd && this->next_cell())
+  {
+    return true;
+  }
+  while (this->next_brick())
+  {
+    if (!this->Bricks->has_cells() || this->Bricks->first_cell[this->Brick] < 0)
+    {
+      this->Rate = this->Bricks->rate[this->Brick];
+      this->Least = this->Bricks->least[this->Brick];
+      return true;
+    }
+    this->begin_cells();
+    if (this->next_cell())
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+void BrickWalk::begin_cells()
+{
+  const int edge = 1 << this->Bricks->shift;
+  this->CellAt = this->From;
+  this->CellEnd = this->To;
+  std::size_t rest = this->Brick;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int corner = static_cast<int>(rest % this->Bricks->dims[axis]) * edge;
+    rest /= this->Bricks->dims[axis];
+    const double place = this->Begin[axis] + this->Along[axis] * this->From - corner;
+    this->Cell[axis] = static_cast<int>(std::clamp(place, 0.0, edge - 0.5));
+    const int side = corner + this->Cell[axis] + (this->Along[axis] > 0.0 ? 1 : 0);
+    this->CellNext[axis] = this->Along[axis] == 0.0
+                             ? std::numeric_limits<double>::infinity()
+                             : (side - this->Begin[axis]) * this->Inverse[axis];
+  }
+}
+
+bool BrickWalk::next_cell()
+{
+  const int shift = this->Bricks->shift;
+  while (this->CellAt < this->CellEnd)
+  {
+    const int axis = this->CellNext[0] < this->CellNext[1]
+                       ? (this->CellNext[0] < this->CellNext[2] ? 0 : 2)
+                       : (this->CellNext[1] < this->CellNext[2] ? 1 : 2);
+    const std::size_t cell =
+      this->Bricks->first_cell[this->Brick] +
+      ((((static_cast<std::size_t>(this->Cell[2]) << shift) + this->Cell[1]) << shift) +
+        this->Cell[0]);
+    const double from = this->CellAt;
+    const double to = std::min(std::max(this->CellNext[axis], from), this->CellEnd);
+    this->CellAt = to;
+    const int beyond = this->Cell[axis] + (this->Along[axis] > 0.0 ? 1 : -1);
+    if (beyond < 0 || beyond >= 1 << shift)
+    {
+      // What is left of the brick is its outermost cell's, as of the bricks themselves.
+      this->CellNext[axis] = std::numeric_limits<double>::infinity();
+    }
+    else if (to < this->CellEnd)
+    {
+      this->Cell[axis] = beyond;
+      this->CellNext[axis] += std::abs(this->Inverse[axis]);
+    }
+    if (this->Bricks->cell_rate[cell] > 0.0 && to > from)
+    {
+      this->Rate = this->Bricks->cell_rate[cell];
+      this->Least = this->Bricks->cell_least[cell];
+      this->From = from;
+      this->To = to;
+      if (this->Rate * (to - from) * this->Scale > few_collisions && this->Bricks->along)
+      {
+        this->StretchAt = from;
+        this->StretchEnd = to;
+        this->StretchLength = to - from;
+        return this->next_stretch() || this->next();
+      }
+      return true;
+    }
+  }
+  return false;
+}
+
+bool BrickWalk::next_stretch()
+{
+  while (this->StretchAt < this->StretchEnd)
+  {
+    const double from = this->StretchAt;
+    const glm::dvec3 begin = this->Begin + from * this->Along;
+    double to = from;
+    double rate = 0.0;
+    double least = 0.0;
+    this->StretchLength *= 4.0;
+    for (int halvings = 0; halvings < 64; ++halvings)
+    {
+      to = from + this->StretchLength < this->StretchEnd ? from + this->StretchLength
+                                                         : this->StretchEnd;
+      this->Bricks->along(begin, this->Begin + to * this->Along, rate, least);
+      // Few collisions, or most of them real.
+      if (rate * (to - from) * this->Scale <= few_collisions || rate <= 2.0 * least)
+      {
+        break;
+      }
+      this->StretchLength = 0.5 * (to - from);
+    }
+    this->StretchAt = to > from ? to : this->StretchEnd;
+    if (rate > 0.0)
+    {
+      this->Rate = rate;
+      this->Least = least;
+      this->From = from;
+      this->To = this->StretchAt;
+      this->Stretched = true;
+      return true;
+    }
+  }
+  return false;
+}
+
+bool BrickWalk::next_brick()
 {
   while (this->At < this->End)
   {

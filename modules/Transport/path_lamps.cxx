@@ -48,17 +48,17 @@ LampPlace NearLamp::on_ray(const glm::dvec3& begin,
 {
   LampPlace result;
   const double foot = glm::dot(this->centre() - begin, along);
-  const double nearest = glm::length(begin + foot * along - this->centre());
-  const double half = std::sqrt(std::max(this->radius * this->radius - nearest * nearest, 0.0));
+  const double passes = glm::length(begin + foot * along - this->centre());
+  const double half = std::sqrt(std::max(this->radius * this->radius - passes * passes, 0.0));
   const double from = std::max(foot - half, 0.0);
   const double to = std::min(foot + half, length);
   if (!(from < to))
   {
     return result;
   }
-  // Where the light is even, places are: as though the ray passed the lamp that far away.
-  const double away = std::max(std::sqrt(nearest * nearest + this->core()), tiny);
-  // The angle at the lamp between both ends, and the tangent of the sum of the first end's and a part
+  // Light of 1 / (c₀ + c₂ d²) is even in the angle at a point that is farther from the line by c₀ / c₂.
+  const double away = std::max(std::sqrt(passes * passes + this->core()), tiny);
+  // The angle there between both ends, and the tangent of the sum of the first end's and a part
   // of it, without differences of angles that are all but the same: a lamp may lie on the ray's line.
   const double first = from - foot;
   const double last = to - foot;

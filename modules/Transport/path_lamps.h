@@ -38,7 +38,8 @@ struct NearLamp
   /// that of 1 / (core + d²), but for what is linear in d.
   double core() const;
 
-  /// On a ray from `begin` along a unit vector, evenly by the angle at the lamp.
+  /// On a ray from `begin` along a unit vector, evenly by the angle at the lamp, or, of a lamp whose
+  /// light c₀ of its attenuation bounds, at a point so far beside it that this is even in its light.
   LampPlace on_ray(const glm::dvec3& begin,
     const glm::dvec3& along,
     double length,

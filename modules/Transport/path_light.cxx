@@ -450,7 +450,7 @@ glm::dvec3 PathScene::radiance(const Sight& from, RandomStream& random, PathCoun
       }
       path.kept /= chance;
     }
-    ++counts.scatterings;
+    counts.scatter();
     const PhaseSampler& phase = in_fog ? this->Fog->phase() : found.matter->phase();
     glm::dvec3 arrives = this->lit(sight.begin, sight.along, phase, path);
     if (this->AroundIsSought)

@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -172,6 +174,88 @@ std::unique_ptr<PathMatter> make_matter(const Scene& scene,
 
 }
 
+namespace
+{
+
+/// Bounds of a cubic polynomial on a stretch from its values at both ends and at a third and two thirds
+/// of it: those of its Bernstein coefficients.
+void bound_cubic(double a, double b, double c, double d, double& lower, double& upper)
+{
+  const double second = (-5.0 * a + 18.0 * b - 9.0 * c + 2.0 * d) / 6.0;
+  const double third = (2.0 * a - 9.0 * b + 18.0 * c - 5.0 * d) / 6.0;
+  lower = std::min({ a, second, third, d });
+  upper = std::max({ a, second, third, d });
+  const double rounding = 1e-9 * std::max(std::abs(lower), std::abs(upper));
+  lower -= rounding;
+  upper += rounding;
+}
+
+/// The bounds of a cell between the voxels lower and upper.
+using CellBounds =
+  std::function<void(const int lower[3], const int upper[3], double& rate, double& least)>;
+
+/// Gives bounds of their own to the cells of bricks that a ray has many collisions in, if most of them
+/// would be with nothing.
+void split_bricks(
+  PathBricks& bricks, const Grid& grid, const glm::dmat3& data_from_index, const CellBounds& bounds)
+{
+  constexpr double many = 64.0; // tentative collisions on the way through a brick
+  constexpr double rarely = 0.125;
+  constexpr std::size_t most = 1 << 14;
+  constexpr int widest = 4;
+  if (bricks.shift > widest)
+  {
+    return;
+  }
+  const int edge = 1 << bricks.shift;
+  const double across = edge * std::max({ glm::length(data_from_index[0]),
+                                 glm::length(data_from_index[1]), glm::length(data_from_index[2]) });
+  std::vector<std::size_t> dense;
+  for (std::size_t i = 0; i < bricks.rate.size(); ++i)
+  {
+    if (bricks.rate[i] * across > many)
+    {
+      dense.push_back(i);
+    }
+  }
+  std::stable_sort(dense.begin(), dense.end(),
+    [&](std::size_t a, std::size_t b) { return bricks.rate[a] > bricks.rate[b]; });
+  dense.resize(std::min(dense.size(), most));
+  const std::size_t cells = static_cast<std::size_t>(edge) * edge * edge;
+  std::vector<double> rate(cells);
+  std::vector<double> least(cells);
+  for (const std::size_t brick : dense)
+  {
+    const std::size_t row = brick / bricks.dims[0];
+    const int corner[3] = { static_cast<int>(brick % bricks.dims[0]) * edge,
+      static_cast<int>(row % bricks.dims[1]) * edge,
+      static_cast<int>(row / bricks.dims[1]) * edge };
+    double sum = 0.0;
+    for (std::size_t cell = 0; cell < cells; ++cell)
+    {
+      int lower[3], upper[3];
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const int at = corner[axis] + static_cast<int>(cell >> (axis * bricks.shift) & (edge - 1));
+        const int last = grid.dims[axis] - 1;
+        lower[axis] = std::clamp(at, grid.first[axis], last);
+        upper[axis] = std::clamp(at + 1, grid.first[axis], last);
+      }
+      bounds(lower, upper, rate[cell], least[cell]);
+      sum += rate[cell];
+    }
+    if (sum < rarely * bricks.rate[brick] * static_cast<double>(cells))
+    {
+      bricks.first_cell.resize(bricks.rate.size(), -1);
+      bricks.first_cell[brick] = static_cast<std::int32_t>(bricks.cell_rate.size());
+      bricks.cell_rate.insert(bricks.cell_rate.end(), rate.begin(), rate.end());
+      bricks.cell_least.insert(bricks.cell_least.end(), least.begin(), least.end());
+    }
+  }
+}
+
+}
+
 PathMatter::PathMatter(const Scene& scene,
   const std::vector<ReferenceMedium>& media,
   const std::vector<int>& numbers)
@@ -228,10 +312,21 @@ void PathMatter::find_bricks()
   const double across = glm::length(this->DataFromIndex * box);
   const double glow = this->Emits && this->volume().medium.lit ? collisions_of_glow / across : 0.0;
   const double channel = std::max({ this->Channels.x, this->Channels.y, this->Channels.z });
+  const auto rate_of = [channel, glow](const ReferenceMedium& medium, double lower, double upper)
+  {
+    const double rate =
+      medium.volume().weight * channel * medium.largest_extinction(lower, upper);
+    return (medium.is_density() ? upper > 0.0 : rate > 0.0) ? std::max(rate, glow) : rate;
+  };
+  const auto least_of = [this](const ReferenceMedium& medium, double lower)
+  {
+    return medium.is_density() && !this->Cut && !medium.volume().mask.labels
+             ? medium.volume().weight * medium.volume().density.extinction * std::max(lower, 0.0)
+             : 0.0;
+  };
   for (const ReferenceMedium* medium : this->Media)
   {
     const BrickRanges& own = medium->ranges();
-    const bool density = medium->is_density();
     for (std::size_t i = 0; i < own.size(); ++i)
     {
       double lower = own.minimum[i];
@@ -245,17 +340,43 @@ void PathMatter::find_bricks()
       {
         continue;
       }
-      const double weight = medium->volume().weight;
-      double rate = weight * channel * medium->largest_extinction(lower, upper);
-      if (density ? upper > 0.0 : rate > 0.0)
+      bricks.rate[i] += rate_of(*medium, lower, upper);
+      bricks.least[i] += least_of(*medium, lower);
+    }
+  }
+  if (this->Media.size() == 1)
+  {
+    const ReferenceMedium& medium = this->medium();
+    split_bricks(bricks, grid, this->DataFromIndex,
+      [&](const int lower[3], const int upper[3], double& rate, double& least)
       {
-        rate = std::max(rate, glow);
-      }
-      bricks.rate[i] += rate;
-      if (density && !this->Cut && !medium->volume().mask.labels)
+        double least_value = std::numeric_limits<double>::infinity();
+        double largest_value = -least_value;
+        for (int corner = 0; corner < 8; ++corner)
+        {
+          glm::dvec3 place;
+          for (int axis = 0; axis < 3; ++axis)
+          {
+            place[axis] = corner >> axis & 1 ? upper[axis] : lower[axis];
+          }
+          const double value = medium.value(place);
+          least_value = std::min(least_value, value);
+          largest_value = std::max(largest_value, value);
+        }
+        rate = rate_of(medium, least_value, largest_value);
+        least = least_of(medium, least_value);
+      });
+    if (grid.linear && !medium.volume().mask.labels)
+    {
+      bricks.along = [=, &medium](
+                       const glm::dvec3& from, const glm::dvec3& to, double& rate, double& least)
       {
-        bricks.least[i] += weight * medium->volume().density.extinction * std::max(lower, 0.0);
-      }
+        double lower, upper;
+        bound_cubic(medium.value(from), medium.value(glm::mix(from, to, 1.0 / 3.0)),
+          medium.value(glm::mix(from, to, 2.0 / 3.0)), medium.value(to), lower, upper);
+        rate = rate_of(medium, lower, upper);
+        least = least_of(medium, lower);
+      };
     }
   }
   // Distances are a matter of what can be seen; the rates say what.
@@ -310,6 +431,11 @@ bool PathMatter::is_drawn(const glm::dvec3& place) const
 }
 
 double PathMatter::density(const glm::dvec3& place, RandomStream&) const
+{
+  return this->interpolated_density(place);
+}
+
+double PathMatter::interpolated_density(const glm::dvec3& place) const
 {
   if (this->Cut && !this->is_drawn(place))
   {

@@ -46,6 +46,8 @@ public:
   /// bricks(). Its expectation over `random` is the interpolated one: a matter may draw one of the
   /// voxels around with the weight that interpolation gives it.
   virtual double density(const glm::dvec3& place, RandomStream& random) const;
+  /// The interpolated one itself.
+  double interpolated_density(const glm::dvec3& place) const;
   /// Whether density() is the extinction of one voxel: read_voxels() gives them by themselves.
   virtual bool has_voxels() const { return false; }
   /// The values of voxels at whole places, one after another, where their bit is set; only where

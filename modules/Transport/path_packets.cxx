@@ -48,6 +48,7 @@ public:
     , Counts(counts)
     , Paths(starts.size() * static_cast<std::size_t>(samples))
     , Phase(scene.matter->phase().model())
+    , Look(counts.collisions + PathCounts::between_looks)
   {
     const Mask none = hn::FirstN(float_tag, 0);
     Alive = Shadow = Collided = Faded = Gone = none;
@@ -69,6 +70,14 @@ public:
     constexpr int few = lane_count >= 8 ? lane_count / 8 : 1;
     for (;;)
     {
+      if (Counts.collisions >= Look)
+      {
+        Look = Counts.collisions + PathCounts::between_looks;
+        if (Counts.look_up)
+        {
+          Counts.look_up();
+        }
+      }
       const int idle = lane_count - count(Alive);
       if (Next < Paths && (idle >= few || idle == lane_count))
       {
@@ -575,6 +584,7 @@ private:
   const std::size_t Paths;
   const PhaseModel& Phase;
   std::size_t Next = 0;
+  std::uint64_t Look; ///< collisions at which to look up
   std::size_t Path[lane_count];
 
   Mask Alive;

@@ -44,6 +44,7 @@ std::uint64_t trace_pixels(const PathScene& scene,
       {
         add(result, start.pixel, glm::dvec3(next[0], next[1], next[2]));
       }
+      result.samples[start.pixel] += samples;
     }
   };
   for (int x = from; x < to; ++x)
@@ -55,10 +56,10 @@ std::uint64_t trace_pixels(const PathScene& scene,
     {
       continue;
     }
-    result.samples[pixel] = target;
     Sight sight;
     if (!sights.find(x, y, sight))
     {
+      result.samples[pixel] = target;
       continue;
     }
     traced += static_cast<std::uint64_t>(target - first);
@@ -71,12 +72,17 @@ std::uint64_t trace_pixels(const PathScene& scene,
       {
         together[target - first].push_back(start);
       }
+      else
+      {
+        result.samples[pixel] = target;
+      }
       continue;
     }
     for (int n = first; n < target; ++n)
     {
       RandomStream random(seed, pixel, static_cast<std::uint32_t>(n));
       add(result, pixel, scene.radiance(sight, random, counts));
+      ++result.samples[pixel];
     }
   }
   for (const auto& [samples, starts] : together)

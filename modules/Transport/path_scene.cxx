@@ -33,6 +33,27 @@ glm::dvec3 passing(double depth, const glm::dvec3& channels)
            : glm::exp(-depth * channels);
 }
 
+/// Within the bounds of where the walk is.
+double density_at(
+  const PathMatter& matter, const BrickWalk& walk, const glm::dvec3& place, RandomStream& random)
+{
+  return walk.is_stretch() ? matter.interpolated_density(place) : matter.density(place, random);
+}
+
+/// Whether a shadow ray that lets through little goes on, for more if it does; the next such place is at a
+/// part of that.
+bool survives(double most, glm::dvec3& passes, double& roulette, RandomStream& random)
+{
+  constexpr double survival = 0.25;
+  if (!(most > 0.0) || random.uniform() >= survival)
+  {
+    return false;
+  }
+  passes /= survival;
+  roulette *= survival;
+  return true;
+}
+
 /// Whether places and rates in single precision are as good as in double: grids so wide that a voxel's
 /// fraction has eight bits left, lengths that are near the ends of its range, and collisions so
 /// close that places cannot be told apart are not.
@@ -77,7 +98,7 @@ public:
   Tracker(const PathMatter& matter, const MatterRay& ray, double to)
     : TheMatter(&matter)
     , TheRay(ray)
-    , Walk(matter.bricks(), ray.begin, ray.along, ray.from, std::min(ray.to, to))
+    , Walk(matter.bricks(), ray.begin, ray.along, ray.from, std::min(ray.to, to), ray.scale)
   {
   }
 
@@ -101,15 +122,19 @@ public:
       }
       this->At = this->Walk.from();
       this->To = this->Walk.to();
-      this->Rate = this->brick_rate() * this->TheRay.scale;
+      this->Rate = this->rate() * this->TheRay.scale;
     }
   }
 
   double at() const { return this->At; }
   const PathMatter& matter() const { return *this->TheMatter; }
   glm::dvec3 place() const { return this->TheRay.begin + this->At * this->TheRay.along; }
-  /// Per unit of the data's length, of the brick with the last collision.
-  double brick_rate() const { return this->TheMatter->bricks().rate[this->Walk.brick()]; }
+  /// Per unit of the data's length, where the last collision is.
+  double rate() const { return this->Walk.rate(); }
+  double density(RandomStream& random) const
+  {
+    return density_at(*this->TheMatter, this->Walk, this->place(), random);
+  }
 
 private:
   const PathMatter* TheMatter;
@@ -196,7 +221,7 @@ void PathScene::find_packets()
   const PathMatter& matter = *this->Matter.front();
   const Volume& volume = matter.volume();
   if (!matter.has_voxels() || matter.is_cut() || matter.emits() || !matter.scatters() ||
-      !suits_single_precision(matter))
+      !suits_single_precision(matter) || matter.bricks().has_cells())
   {
     return;
   }
@@ -361,15 +386,15 @@ bool PathScene::collide(const glm::dvec3& begin,
     {
       return false;
     }
-    ++path.counts.collisions;
+    path.counts.collide();
     const PathMatter& matter = first.matter();
     const glm::dvec3 place = first.place();
-    const double rate = first.brick_rate();
+    const double rate = first.rate();
     if (matter.emits())
     {
       found.emitted += path.weight(first.at()) * matter.emission(place) / rate;
     }
-    const double density = matter.density(place, path.random);
+    const double density = first.density(path.random);
     const glm::dvec3 real = glm::min(density / rate * matter.channels(), 1.0); // but for rounding
     if (path.random.uniform() < real[path.hero])
     {
@@ -409,15 +434,15 @@ glm::dvec3 PathScene::transmittance(const glm::dvec3& begin,
       continue;
     }
     const glm::dvec3& channels = matter->channels();
-    const PathBricks& bricks = matter->bricks();
     const double channel = largest(channels);
-    BrickWalk walk(bricks, ray.begin, ray.along, ray.from, std::min(ray.to, length));
+    BrickWalk walk(
+      matter->bricks(), ray.begin, ray.along, ray.from, std::min(ray.to, length), ray.scale);
     double depth = 0.0; // of what is everywhere, by a channel of 1
     double left = -std::log(path.random.uniform());
     while (walk.next())
     {
-      const double rate = bricks.rate[walk.brick()];
-      const double least = bricks.least[walk.brick()];
+      const double rate = walk.rate();
+      const double least = walk.least();
       depth += least * ray.scale * (walk.to() - walk.from());
       const double extra = (rate - channel * least) * ray.scale;
       double at = walk.from();
@@ -425,24 +450,23 @@ glm::dvec3 PathScene::transmittance(const glm::dvec3& begin,
       {
         at += left / extra;
         left = -std::log(path.random.uniform());
-        ++path.counts.collisions;
-        const double density = matter->density(ray.begin + at * ray.along, path.random);
+        path.counts.collide();
+        const double density =
+          density_at(*matter, walk, ray.begin + at * ray.along, path.random);
         const double more = std::max(density - least, 0.0) / (rate - channel * least);
         passes *= glm::max(1.0 - more * channels, 0.0);
+        if (largest(passes) < roulette && !survives(largest(passes), passes, roulette, path.random))
+        {
+          return glm::dvec3(0.0);
+        }
       }
       left -= (walk.to() - at) * extra;
       // The most that may be left; of what is everywhere, by the clearest channel.
       const double clearest = std::min({ channels.x, channels.y, channels.z });
       const double most = largest(passes) * std::exp(-depth * clearest);
-      if (most < roulette)
+      if (most < roulette && !survives(most, passes, roulette, path.random))
       {
-        constexpr double survival = 0.25;
-        if (!(most > 0.0) || path.random.uniform() >= survival)
-        {
-          return glm::dvec3(0.0);
-        }
-        passes /= survival;
-        roulette *= survival;
+        return glm::dvec3(0.0);
       }
     }
     passes *= passing(depth, channels);

@@ -16,6 +16,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -29,6 +30,30 @@ struct PathCounts
   std::uint64_t collisions = 0;  ///< tentative ones: places at which matter was read
   std::uint64_t scatterings = 0; ///< real ones that sent light on
   std::uint64_t shadow_rays = 0;
+
+  /// Called once in some ten thousand collisions: a path may be long. Throws PathsStopped where the
+  /// paths in hand are no longer wanted. Empty: they always are.
+  std::function<void()> look_up;
+  static constexpr std::uint64_t between_looks = 1 << 15;
+
+  void collide()
+  {
+    if (++this->collisions % between_looks == 0 && this->look_up)
+    {
+      this->look_up();
+    }
+  }
+  void scatter()
+  {
+    if (++this->scatterings % between_looks == 0 && this->look_up)
+    {
+      this->look_up();
+    }
+  }
+};
+
+struct PathsStopped
+{
 };
 
 /// A ray that light is looked for on. Of the camera's, volumes and fog may begin and end apart.

@@ -1,6 +1,7 @@
 #include "Transport/path_tracer.h"
 
 #include "Transport/path_error.h"
+#include "Transport/path_found.h"
 #include "Transport/path_pixels.h"
 #include "Transport/path_scene.h"
 #include "Transport/path_sights.h"
@@ -42,6 +43,9 @@ constexpr int paths_at_once = 4096;
 /// what they have, so that many go together in packets.
 constexpr double most_growth = 3.0;
 constexpr int parts_of_growth = 8;
+
+/// How many times the seconds there are the first path of each pixel may take.
+constexpr double patience = 4.0;
 
 double seconds_since(Clock::time_point start)
 {
@@ -125,9 +129,23 @@ struct PathTracer::Kept
   {
     return this->variance_of_path(pixel, channel) / std::max(this->Paths.samples[pixel], 1);
   }
-  /// The largest of a pixel's channels, of its paths; no less than the mean of the pixels around it, as
-  /// samples that are all alike tell little.
-  void careful_variance(int x, int y, double v[3]) const
+  /// At least this much, where all of a pixel's paths are black. What its ray meets does not dim: nothing is
+  /// there that light could be found in.
+  double unfound_variance(const FoundLight& found, int x, int y, int channel) const
+  {
+    const std::size_t pixel = static_cast<std::size_t>(y) * this->Width + x;
+    const int n = this->Paths.samples[pixel];
+    if (n < 1 || this->Paths.sums[3 * pixel + channel] != 0.0 ||
+        this->Behind.transmittance[channel][pixel] == 1.0f)
+    {
+      return 0.0;
+    }
+    const double brought = found.brought(x, y, channel);
+    return brought * brought / n;
+  }
+  /// Of a pixel's paths, channel by channel; no less than the mean of the pixels around it, as samples that
+  /// are all alike tell little.
+  void careful_variance(const FoundLight& found, int x, int y, double v[3]) const
   {
     for (int c = 0; c < 3; ++c)
     {
@@ -141,19 +159,22 @@ struct PathTracer::Kept
         }
       }
       const double own = this->variance_of_path(static_cast<std::size_t>(y) * this->Width + x, c);
-      v[c] = std::isnan(own) ? own : std::max(own, around / count);
+      v[c] = std::isnan(own)
+               ? own
+               : std::max({ own, around / count, this->unfound_variance(found, x, y, c) });
     }
   }
   PathError error() const
   {
     PathError error;
+    const FoundLight found(this->Paths, this->Width, this->Height);
     for (int y = 0; y < this->Height; ++y)
     {
       for (int x = 0; x < this->Width; ++x)
       {
         const int n = this->Paths.samples[static_cast<std::size_t>(y) * this->Width + x];
         double v[3];
-        this->careful_variance(x, y, v);
+        this->careful_variance(found, x, y, v);
         for (double& channel : v)
         {
           channel /= std::max(n, 1);
@@ -168,13 +189,14 @@ struct PathTracer::Kept
   void find_targets(double cap, int most, bool at_least, std::vector<int>& targets) const
   {
     targets.resize(this->Paths.samples.size());
+    const FoundLight found(this->Paths, this->Width, this->Height);
     for (int y = 0; y < this->Height; ++y)
     {
       for (int x = 0; x < this->Width; ++x)
       {
         const std::size_t pixel = static_cast<std::size_t>(y) * this->Width + x;
         double v[3];
-        this->careful_variance(x, y, v);
+        this->careful_variance(found, x, y, v);
         const double n = this->Paths.samples[pixel];
         const double largest = std::max({ v[0], v[1], v[2] });
         const double highest = std::max<double>(n, std::min<double>(most, most_growth * n));
@@ -194,14 +216,18 @@ struct PathTracer::Kept
     film.transmittance[1] = this->Behind.transmittance[1];
     film.transmittance[2] = this->Behind.transmittance[2];
     film.depth = this->Behind.depth;
+    const FoundLight found(this->Paths, this->Width, this->Height);
     for (std::size_t pixel = 0; pixel < film.size(); ++pixel)
     {
       const int n = std::max(this->Paths.samples[pixel], 1);
+      const int x = static_cast<int>(pixel % this->Width);
+      const int y = static_cast<int>(pixel / this->Width);
       double largest = 0.0;
       for (int c = 0; c < 3; ++c)
       {
         film.radiance[c][pixel] = static_cast<float>(this->Paths.sums[3 * pixel + c] / n);
-        largest = std::max(largest, this->variance(pixel, c));
+        largest = std::max(
+          { largest, this->variance(pixel, c), this->unfound_variance(found, x, y, c) / n });
       }
       film.error[pixel] = static_cast<float>(3.0 * std::sqrt(largest));
     }
@@ -287,6 +313,24 @@ PathStatistics PathTracer::render(const Scene& scene,
             for (int y = range.begin(); y != range.end(); ++y)
             {
               PathCounts counts;
+              counts.look_up = [&]
+              {
+                // After the first pass, which the picture is nothing without, time is time.
+                if (settings.seconds > 0.0 &&
+                    seconds_since(start) > (may_be_late ? 1.0 : patience) * seconds)
+                {
+                  late = true;
+                }
+                if (progress && std::this_thread::get_id() == caller &&
+                    !progress(std::min(from + part * rows / film.height, 1.0)))
+                {
+                  aborted = true;
+                }
+                if (aborted || late)
+                {
+                  throw PathsStopped();
+                }
+              };
               int x = 0;
               while (x < film.width && !aborted && !late)
               {
@@ -309,8 +353,15 @@ PathStatistics PathTracer::render(const Scene& scene,
                   many += std::max(more, 0);
                   ++end;
                 }
-                traced += trace_pixels(paths, sights, film.width, y, x, end, some, settings.seed,
-                  kept.Paths, counts);
+                try
+                {
+                  traced += trace_pixels(paths, sights, film.width, y, x, end, some, settings.seed,
+                    kept.Paths, counts);
+                }
+                catch (const PathsStopped&)
+                {
+                  break; // without the paths in hand
+                }
                 const bool whole = some.all == targets.all;
                 x = whole ? end : x;
                 if (may_be_late && seconds_since(start) > seconds)

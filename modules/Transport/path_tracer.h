@@ -33,7 +33,9 @@ struct PathSettings
   bool adaptive = false;
   static constexpr int fewest_samples = 16;
   /// Stops sooner rather than trace paths for longer than this, in seconds, after one path a pixel.
-  /// 0: never. A pass that takes longer than was to be expected is left within it.
+  /// 0: never. A pass that takes longer than was to be expected is left within it, and single paths are,
+  /// too, that are not in the picture then. Where one path a pixel takes more than four times as long, pixels
+  /// are left without.
   double seconds = 0.0;
   /// The seconds count from the call on, with what is prepared.
   bool seconds_of_all = false;
@@ -83,7 +85,8 @@ struct PathStatistics
 /// Draws scenes by tracing paths in composite mode. Film::radiance is the mean of the paths through
 /// each pixel's centre; Film::transmittance and depth are the ray marcher's, whose error is far
 /// smaller; Film::error is three times the largest channel's standard error, from the second path
-/// on.
+/// on. Of a pixel whose paths are all black, in matter, that is at least what paths around it bring that
+/// find light, by its number of paths.
 ///
 /// What is not simulated: gradient shading (the phase function holds instead), octaves (all
 /// scatterings are followed), silver lining and powder (they are no physics).

@@ -1,6 +1,7 @@
 // Lit media and coloured extinction.
 #include "Transport/reference_integrators.h"
 
+#include <glm/common.hpp>
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 
@@ -204,6 +205,29 @@ private:
     std::size_t volume_count;
   };
 
+  /// What of each channel lies at a place of the ray, per unit of s.
+  glm::dvec3 extinction(const RayInterval& interval, double s) const
+  {
+    glm::dvec3 sum(0.0);
+    for (int v : interval.volumes)
+    {
+      const ReferenceMedium& medium = this->TheScene.media[v];
+      const VolumeRay& ray = this->TheRay.volumes[v];
+      const Volume& volume = this->TheScene.scene.volumes[v];
+      const glm::dvec3 channels =
+        medium.is_density() ? volume.density.channels : glm::dvec3(1.0);
+      sum += medium.extinction(ray.place(s)) * ray.length * volume.weight * channels;
+    }
+    if (const FogModel* fog = this->TheScene.lighting->fog())
+    {
+      sum += fog->optical_depth(
+        fog->profile(this->TheRay.world_place(s)) * this->TheRay.world_length);
+    }
+    return sum;
+  }
+
+  /// Adds a part of the ray, in halves where it is too deep for its pieces. What lies behind matter
+  /// that nothing passes is left whole.
   void add(const RayInterval& interval, const RayPart& part)
   {
     if (!(part.from < part.to))
@@ -212,7 +236,6 @@ private:
     }
     const double middle = 0.5 * (part.from + part.to);
     Stretch stretch{ part, 1, this->Volumes.size(), 0 };
-    double depth = 0.0;
     for (int v : interval.volumes)
     {
       const ReferenceMedium& medium = this->TheScene.media[v];
@@ -227,30 +250,39 @@ private:
         medium.value(ray.place(part.from)),
         medium.value(ray.place(part.to)));
       stretch.factor = std::max(stretch.factor, extra_pieces(variation));
-      for (const double s : { part.from, middle, part.to })
-      {
-        depth = std::max(depth, medium.extinction(ray.place(s)) * ray.length);
-      }
     }
-    if (const FogModel* fog = this->TheScene.lighting->fog())
+    if (stretch.volume_count == 0 && !this->TheScene.lighting->fog())
     {
-      for (const double s : { part.from, part.to })
-      {
-        const double profile = fog->profile(this->TheRay.world_place(s));
-        const glm::dvec3 deep = fog->optical_depth(profile * this->TheRay.world_length);
-        depth = std::max({ depth, deep.x, deep.y, deep.z });
-      }
+      return;
     }
-    if (stretch.volume_count > 0 || this->TheScene.lighting->fog())
+    const glm::dvec3 ends[3] = { this->extinction(interval, part.from),
+      this->extinction(interval, middle),
+      this->extinction(interval, part.to) };
+    const glm::dvec3 most = glm::max(glm::max(ends[0], ends[1]), ends[2]) * (part.to - part.from);
+    double depth = 0.0; // of the channels that are not gone before
+    for (int c = 0; c < 3; ++c)
     {
-      // The rule is at its best where no piece is deep.
-      constexpr double most_pieces = 64.0;
-      depth *= part.to - part.from;
-      stretch.factor =
-        std::max(stretch.factor, static_cast<int>(std::min(std::ceil(depth), most_pieces)));
-      this->Stretches.push_back(stretch);
+      depth = this->DepthBefore[c] < opaque ? std::max(depth, most[c]) : depth;
     }
+    // The rule is at its best where no piece is deep.
+    constexpr double most_pieces = 64.0;
+    if (depth > most_pieces && part.from < middle && middle < part.to)
+    {
+      this->Volumes.resize(stretch.first_volume);
+      this->add(interval, { part.from, middle });
+      this->add(interval, { middle, part.to });
+      return;
+    }
+    this->DepthBefore +=
+      glm::min(glm::min(ends[0], ends[1]), ends[2]) * (part.to - part.from);
+    stretch.factor =
+      std::max(stretch.factor, static_cast<int>(std::min(std::ceil(depth), most_pieces)));
+    this->Stretches.push_back(stretch);
   }
+
+  /// An optical depth that nothing passes.
+  static constexpr double opaque = 40.0;
+  glm::dvec3 DepthBefore{ 0.0 }; ///< of all stretches that were added, at the least
 
   const ReferenceScene& TheScene;
   const PixelRay& TheRay;

@@ -33,6 +33,8 @@ constexpr int probes = 64; ///< along each side of the picture
 constexpr double longest = 4.0;
 constexpr double longest_lit = 1.0;
 constexpr double shortest = 1.0 / 32.0;
+/// Steps with which no voxel is stepped over: what longer ones find is held against theirs, too.
+constexpr double surest = 1.0;
 /// In lit scenes no other rule helps out where the midpoint rule is not enough: for the sharpest
 /// tolerances its steps go on to be halved.
 constexpr double shortest_lit = 1.0 / 128.0;
@@ -47,15 +49,19 @@ constexpr double most_rays = 0.95;
 /// crossing of a voxel takes cell by cell.
 constexpr double cost_of_integrated = 1.6;
 constexpr double samples_by_cells = 3.5;
+/// Rays that have to meet something, of 64 × 64, and the longest step where fewer do, in voxel edges.
+constexpr int least_met = 32;
+constexpr double step_of_specks = 0.25;
 /// Shadows: rays along each side of the picture, for one light; how much larger the error of all
 /// pixels is; the tolerances below which light volumes are of 32 bits, and are not made at all; nodes
-/// of all light volumes that are swept in the time of a picture, and the most of one.
+/// of all light volumes that are swept in the time of a picture, and the most of one and of all.
 constexpr double shadow_probes = 20.0;
 constexpr double unseen_shadows = 1.5;
 constexpr double precise_below = 1e-3;
 constexpr double least_of_volumes = 1e-4;
 constexpr double nodes_of_a_picture = 4e6;
 constexpr double nodes_at_most = 2e7;
+constexpr double nodes_of_all_at_most = 1e8;
 /// From here on rays through classified matter are not taken for what the best light volume misses at
 /// its surfaces: a hundred times the time is more than so loose a tolerance is worth.
 constexpr double rays_below = 9e-4;
@@ -88,7 +94,7 @@ public:
     this->Settings.refinements = 0;
     this->Settings.jitter = false;
     this->TheScene.surface_depth.clear();
-    this->TheScene.camera.clip_from_world = zoomed_to_volumes(scene, 1);
+    this->TheScene.camera.clip_from_world = zoomed_to_matter(scene);
     this->Settings.threads = threads;
     // Rays end where what is behind cannot matter to the estimate.
     this->Settings.leave_error = std::min(0.01 * tolerance, 1e-4);
@@ -108,6 +114,22 @@ public:
   }
 
   MarchSettings& settings() { return this->Settings; }
+
+  /// How many rays of a picture met something.
+  static int met(const Film& film)
+  {
+    int count = 0;
+    for (std::size_t pixel = 0; pixel < film.size(); ++pixel)
+    {
+      bool any = false;
+      for (int c = 0; c < 3; ++c)
+      {
+        any = any || film.transmittance[c][pixel] < 1.0f || film.radiance[c][pixel] > 0.0f;
+      }
+      count += any;
+    }
+    return count;
+  }
 
   /// For each pixel the largest change of a channel.
   std::vector<double> changes(const Film& a, const Film& b) const
@@ -220,9 +242,12 @@ ShadowChoice choose_shadows(Marcher& marcher, const Scene& scene, double toleran
   double spacing = std::cbrt(nodes * lights / nodes_of_a_picture);
   spacing = std::max(std::exp2(std::ceil(2.0 * std::log2(spacing)) / 2.0), 0.25);
   const bool volumes = tolerance >= least_of_volumes;
-  for (bool first = true;
-       volumes && (first || nodes / (spacing * spacing * spacing) < nodes_at_most);
-       spacing *= 0.5, first = false)
+  const auto affordable = [&]
+  {
+    const double of_one = nodes / (spacing * spacing * spacing);
+    return of_one < nodes_at_most && of_one * lights < nodes_of_all_at_most;
+  };
+  for (bool first = true; volumes && (first || affordable()); spacing *= 0.5, first = false)
   {
     const double error =
       unseen_shadows * probe.change(with(ShadowMethod::Volume, spacing * edge), truth);
@@ -315,6 +340,15 @@ StepChoice choose_step(Marcher& marcher,
     std::nth_element(errors.begin(), errors.begin() + passed_over, errors.end(), std::greater<>());
     return errors[static_cast<std::size_t>(passed_over)];
   };
+  Film control;
+  const auto error_by_control = [&](const Film& film)
+  {
+    if (control.size() == 0)
+    {
+      control = probe.march(StepRule::Midpoint, surest);
+    }
+    return margin * counting(probe.changes(film, control));
+  };
   double last_change = 0.0; // by the halving before
   double step = lit ? longest_lit : longest;
   Film longer = probe.march(StepRule::Midpoint, step);
@@ -344,6 +378,13 @@ StepChoice choose_step(Marcher& marcher,
       scale_of_most = scale_of_estimates(longer, errors, tolerance);
     }
     choice.met = choice.estimated_error <= tolerance;
+    if (choice.met && step > surest)
+    {
+      // Both may have missed the same voxel.
+      const double error = error_by_control(longer);
+      choice.estimated_error = std::max(choice.estimated_error, error);
+      choice.met = error <= tolerance;
+    }
     if (choice.met || step <= least)
     {
       break;
@@ -351,8 +392,27 @@ StepChoice choose_step(Marcher& marcher,
     step *= 0.5;
     std::swap(longer, shorter);
   }
+  // Specks that hardly any ray met tell nothing of longer steps, and leave little to march through.
+  const bool specks =
+    step > step_of_specks && probe.met(shorter) < least_met * edge * edge / (probes * probes);
+  if (specks)
+  {
+    step = step_of_specks;
+    longer = probe.march(StepRule::Midpoint, step);
+    for (;; step *= 0.5)
+    {
+      shorter = probe.march(StepRule::Midpoint, 0.5 * step);
+      choice.estimated_error = margin * 4.0 / 3.0 * counting(probe.changes(longer, shorter));
+      choice.met = choice.estimated_error <= tolerance;
+      if (choice.met || step <= least)
+      {
+        break;
+      }
+      std::swap(longer, shorter);
+    }
+  }
   // Not even the shortest steps do for all rays of some lit scenes: those few are refined as far.
-  if ((choice.met || lit) && scene.blend_mode == BlendMode::Composite && step_of_most >= 4.0 * step &&
+  if (!specks && (choice.met || lit) && scene.blend_mode == BlendMode::Composite && step_of_most >= 4.0 * step &&
     scale_of_most > 0.0)
   {
     choice.step = step_of_most * smallest_voxel_edge(scene);
@@ -361,15 +421,19 @@ StepChoice choose_step(Marcher& marcher,
     choice.estimated_error = std::max(tolerance, choice.met ? 0.0 : choice.estimated_error);
     return choice;
   }
-  if (choice.met && step < (lit ? longest_lit : longest))
+  if (!specks && choice.met && step < (lit ? longest_lit : longest))
   {
     // Twice the step would be too long; some of it is not. Toward longer steps the error may grow
     // faster than with the square: the cube is on the safe side.
     const double room = tolerance / std::max(choice.estimated_error, 0.125 * tolerance);
     const double factor = std::min(std::cbrt(room), 1.999);
-    step *= factor;
-    choice.estimated_error =
-      std::min(choice.estimated_error * factor * factor * factor, tolerance);
+    if (step * factor <= surest ||
+        error_by_control(probe.march(StepRule::Midpoint, step * factor)) <= tolerance)
+    {
+      step *= factor;
+      choice.estimated_error =
+        std::min(choice.estimated_error * factor * factor * factor, tolerance);
+    }
   }
   // `shorter` is the finest picture at hand: what another rule makes of a longer step is measured
   // against it.
@@ -385,11 +449,19 @@ StepChoice choose_step(Marcher& marcher,
       step = other;
     }
   }
-  if (follows_rule(scene, StepRule::Cells) && step < 1.0 / samples_by_cells)
+  if (follows_rule(scene, StepRule::Cells) && (specks || step < 1.0 / samples_by_cells))
   {
-    choice.rule = StepRule::Cells;
-    choice.estimated_error = 1e-5; // rounding
-    step = 1.0;
+    // Exact but where interpolation passes from below 0, which counts as 0, to above.
+    const auto& ranges = scene.volumes[0].ranges;
+    const bool bends = !ranges || ranges->lower < 0.0f;
+    const double error =
+      bends ? margin * counting(probe.changes(probe.march(StepRule::Cells, 1.0), shorter)) : 1e-5;
+    if (!bends || error <= tolerance)
+    {
+      choice.rule = StepRule::Cells;
+      choice.estimated_error = error;
+      step = 1.0;
+    }
   }
   choice.met = choice.estimated_error <= tolerance;
   choice.step = step * smallest_voxel_edge(scene);

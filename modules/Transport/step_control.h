@@ -47,8 +47,9 @@ struct StepChoice
 /// 1e-4), by the rule that needs the fewer samples; the shortest where none is expected to do.
 ///
 /// The expectation is measured with the kernels themselves: 4096 rays of the scene's camera, spread
-/// evenly over the volume's own outline whatever part of it is in the picture, are marched with steps
-/// of 4, 2, 1, … voxel edges. The midpoint rule's error falls with the square of the step, so that 4/3
+/// evenly over the outline of what can be seen of the volume, whatever part of it is in the picture, are
+/// marched with steps of 4, 2, 1, … voxel edges (4 and 2 are held against 1, too, which steps over no voxel); where hardly any of them meets something, steps
+/// of ¼, ⅛, … are. The midpoint rule's error falls with the square of the step, so that 4/3
 /// of the largest change by a halving is the error of the longer step; half of that again is added for
 /// the rays that were not looked at. Steps between two halvings are taken with an error that grows
 /// with the cube.

@@ -1,4 +1,5 @@
 // Fog in closed form against adaptive quadrature by Boost.Math of the integrals that define it.
+#include "../support/fog_scenes.h"
 #include "../support/fog_truth.h"
 
 #include "Transport/exponential_integral.h"
@@ -18,27 +19,11 @@
 #include <vector>
 
 using namespace brume;
+using namespace fog_scenes;
 using namespace fog_truth;
 
 namespace
 {
-
-Scene scene_of(double falloff, const dvec3& extinction = dvec3(0.4))
-{
-  Scene scene;
-  scene.volumes.clear();
-  scene.lights.clear();
-  scene.fog.enabled = true;
-  scene.fog.extinction = extinction;
-  scene.fog.albedo = dvec3(0.9, 0.8, 0.7);
-  scene.fog.falloff = falloff;
-  scene.fog.base_height = 2.0;
-  PhaseLobe lobe;
-  lobe.function = PhaseFunction::HenyeyGreenstein;
-  lobe.anisotropy = 0.7;
-  scene.fog.lobes = { lobe };
-  return scene;
-}
 
 const double slopes[] = { 0.0, 1e-300, 4e-320, 1e-12, -1e-12, 1e-5, -1e-5, 0.02, -0.02, 0.5, -0.5,
   0.96, -0.96, 1.0, -1.0 };
@@ -134,9 +119,7 @@ TEST(Fog, SunlightIsTheIntegralAlongTheRay)
     for (double rise : { 1.0, 0.5, 0.02 })
     {
       Scene scene = scene_of(falloff, dvec3(0.4, 0.1, 0.02));
-      Light sun;
-      sun.diffuse = dvec3(1.0, 0.8, 0.6);
-      sun.direction = -direction_of(rise, 2.0);
+      const Light sun = sun_of(rise);
       scene.lights = { sun };
       const FogModel fog(scene);
       for (double slope : slopes)
@@ -205,9 +188,7 @@ TEST(Fog, LightOfTheSkyIsTheIntegralAlongTheRay)
   double worst = 0.0;
   for (double falloff : { 0.0, 1e-3, 0.05, 1.0 })
   {
-    Scene scene = scene_of(falloff, dvec3(0.4, 0.05, 0.005));
-    scene.sky.radiance = dvec3(1.0, 2.0, 3.0);
-    scene.sky.ground = dvec3(0.5, 0.25, 0.125);
+    const Scene scene = scene_under_sky(falloff);
     const FogModel fog(scene);
     for (double slope : slopes)
     {
@@ -310,26 +291,20 @@ TEST(Fog, LampsAreTheIntegralAlongTheRay)
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(-8.0, 8.0);
   std::uniform_real_distribution<double> cosine(-1.0, 1.0);
-  const dvec3 attenuations[] = { { 1, 0, 0 }, { 0.2, 0.3, 0 }, { 0, 0, 1 }, { 1, 0, 1e3 } };
   double worst = 0.0;
   int lit = 0;
   for (double falloff : { 0.0, 0.05, 1.0 })
   {
-    for (const dvec3& attenuation : attenuations)
+    for (const dvec3& attenuation : lamp_attenuations)
     {
       for (double cone : { 180.0, 25.0 })
       {
         for (int trial = 0; trial < 12; ++trial)
         {
           Scene scene = scene_of(falloff, dvec3(2.0, 0.1, 0.001));
-          Light lamp;
-          lamp.positional = true;
-          lamp.position = dvec3(place(random), place(random), place(random));
-          lamp.direction = direction_of(cosine(random), place(random));
-          lamp.attenuation = attenuation;
-          lamp.cone_angle = cone;
-          lamp.exponent = 3.0;
-          scene.lights = { lamp };
+          const dvec3 position(place(random), place(random), place(random));
+          scene.lights = { lamp_of(position, direction_of(cosine(random), place(random)), attenuation, cone) };
+          const Light& lamp = scene.lights[0];
           const FogModel fog(scene);
           const dvec3 origin(place(random), place(random), place(random));
           // Past the lamp at some distance, or at next to none.

@@ -11,41 +11,10 @@ using namespace lit_scenes;
 namespace
 {
 
-/// n³ voxels of 1 inside a ball of `radius` voxels, and a soft edge of one voxel.
-struct Ball
+/// What it sends.
+struct Ball : LitBall
 {
-  int n;
-  double radius;
-  Voxels<float> voxels;
-  Scene scene;
-  View view;
-
-  Ball(int size, double the_radius, double extinction)
-    : n(size)
-    , radius(the_radius)
-    , voxels(size,
-        size,
-        size,
-        [=](int i, int j, int k)
-        {
-          const glm::dvec3 p = glm::dvec3(i, j, k) - 0.5 * (size - 1);
-          return static_cast<float>(std::clamp(the_radius + 0.5 - glm::length(p), 0.0, 1.0));
-        })
-  {
-    Volume& volume = scene.volumes[0];
-    volume.grid = voxels.grid();
-    volume.data_from_index = placed(glm::dvec3(1.0), glm::dvec3(-0.5 * (n - 1)));
-    volume.meaning = ValueMeaning::Density;
-    volume.density.extinction = extinction;
-    volume.medium.lit = true;
-    volume.medium.lobes = { { PhaseFunction::HenyeyGreenstein, 1.0, 0.3 } };
-    Light sun;
-    sun.direction = glm::normalize(glm::dvec3(-0.6, 0.35, -0.7));
-    scene.lights = { sun };
-    view = view_of(scene, glm::dvec3(0.3, 0.5, -1.0), false);
-    view.half_height *= 0.62;
-    scene.camera = view.camera(1.0);
-  }
+  using LitBall::LitBall;
 
   double sigma() const { return scene.volumes[0].density.extinction; }
 

@@ -1,23 +1,20 @@
 // What lit matter sends besides a sun's single scattering, in a slab: quadratures of the model as
 // docs/theory/light.md has it, written anew.
-#include "../support/lit_scenes.h"
+#include "../support/slab_scenes.h"
 
 #include "Transport/black_body.h"
 
 #include <boost/math/special_functions/expint.hpp>
-#include <glm/ext/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 
 #include <iostream>
 
-using namespace lit_scenes;
+using namespace slab_scenes;
 
 namespace
 {
 
 constexpr int edge = 4;
-constexpr double width = 16.0;
-const glm::dvec3 depths(0.4, 1.1, 2.6);
 
 double e2(double x)
 {
@@ -99,9 +96,6 @@ void expect_close(Slab& slab, const glm::dvec3& depth, const Send& send, const B
   look("shadow functions", by_functions, bounds.of_functions);
 }
 
-/// The sun of all these tests.
-const glm::dvec3 sun_diffuse(1.0, 2.0, 0.5);
-constexpr double sun_zenith = 50.0;
 const double mu0 = std::cos(sun_zenith * pi / 180.0);
 
 double sun_irradiance(double depth, double z, int c)
@@ -120,13 +114,7 @@ TEST(LitMedia, SkyAndGround)
 {
   for (const double side : { 1.0, -1.0 })
   {
-    Slab slab(depths, width);
-    slab.scene.sky.radiance = { 1.0, 0.5, 2.0 };
-    slab.scene.sky.ground = { 0.2, 0.7, 0.0 };
-    slab.scene.sky.up = { 0.0, 0.0, side };
-    slab.medium().albedo = { 0.9, 1.0, 0.6 };
-    // Ambient light knows no phase function.
-    slab.medium().lobes = { { PhaseFunction::HenyeyGreenstein, 1.0, 0.8 } };
+    Slab slab = slab_under_sky(side);
     const glm::dvec3 above = side > 0.0 ? slab.scene.sky.radiance : slab.scene.sky.ground;
     const glm::dvec3 below = side > 0.0 ? slab.scene.sky.ground : slab.scene.sky.radiance;
     expect_close(slab,
@@ -143,8 +131,7 @@ TEST(LitMedia, SkyAndGround)
 // A white sky over black ground and none besides: where matter is thin all of it is seen.
 TEST(LitMedia, ThinMatterScattersHalfOfASky)
 {
-  Slab slab(glm::dvec3(1e-5), width);
-  slab.scene.sky.radiance = glm::dvec3(1.0);
+  Slab slab = thin_slab_under_sky();
   expect_close(slab,
     glm::dvec3(1e-5),
     [](double, int, const glm::dvec3&) { return 0.5e-5; },
@@ -153,13 +140,7 @@ TEST(LitMedia, ThinMatterScattersHalfOfASky)
 
 TEST(LitMedia, Octaves)
 {
-  Slab slab(depths, width);
-  slab.add_sun(sun_zenith, 40.0, sun_diffuse);
-  slab.medium().albedo = { 1.0, 0.8, 0.9 };
-  slab.medium().lobes = { { PhaseFunction::HenyeyGreenstein, 3.0, 0.8 },
-    { PhaseFunction::HenyeyGreenstein, 1.0, -0.4 },
-    { PhaseFunction::Rayleigh, 1.0, 0.0 } };
-  slab.medium().octaves = { 5, 0.6, 0.45, 0.7 };
+  Slab slab = slab_of_octaves();
   expect_close(slab,
     depths,
     [&](double z, int c, const glm::dvec3& direction)
@@ -177,10 +158,7 @@ TEST(LitMedia, Octaves)
 
 TEST(LitMedia, SilverLining)
 {
-  Slab slab(depths, width);
-  slab.add_sun(sun_zenith, 40.0, sun_diffuse);
-  slab.medium().octaves.count = 2;
-  slab.medium().silver_lining = { true, 0.7, 0.15, 0.25 };
+  Slab slab = slab_with_silver_lining();
   expect_close(slab,
     depths,
     [&](double z, int c, const glm::dvec3& direction)
@@ -200,11 +178,7 @@ TEST(LitMedia, Powder)
   { return from + (to - from) * std::min(std::max((x - a) / (b - a), 0.0), 1.0); };
   for (const Powder::Form form : { Powder::Form::Exponential, Powder::Form::Height })
   {
-    Slab slab(depths, width);
-    slab.add_sun(sun_zenith, 40.0, sun_diffuse);
-    slab.scene.sky.radiance = glm::dvec3(1.0);
-    slab.medium().emission = glm::dvec3(0.3); // no light of others: powder leaves it
-    slab.medium().powder = { true, 0.8, form, 1.5 };
+    Slab slab = slab_of_powder(form);
     const double d = 1.5 * 0.5;
     expect_close(slab,
       depths,
@@ -224,15 +198,8 @@ TEST(LitMedia, Powder)
 
 TEST(LitMedia, EmissionAndBlackBody)
 {
-  // Temperatures that rise with the height, 800 to 1600 kelvin in two units each.
-  const Voxels<float> warm(3, 3, 5, [](int, int, int k) { return 400.0f + 100.0f * k; });
-  Slab slab(depths, width);
-  Medium& medium = slab.medium();
-  medium.emission = { 0.5, 0.25, 0.0 };
-  medium.black_body = 3.0;
-  medium.black_body_reference = 1200.0;
-  medium.temperature = warm.grid();
-  medium.temperature_scale = 2.0;
+  WarmSlab slab;
+  const Medium& medium = slab.medium();
   expect_close(slab,
     depths,
     [&](double z, int c, const glm::dvec3&)
@@ -246,52 +213,17 @@ TEST(LitMedia, EmissionAndBlackBody)
 // Matter that glows and takes nothing: length times emission.
 TEST(LitMedia, ThereIsEmissionWithoutExtinction)
 {
-  Slab slab(glm::dvec3(1.0), width);
-  slab.scene.volumes[0].density.extinction = 0.0;
-  slab.medium().emission = { 0.5, 0.25, 2.0 };
+  Slab slab = glowing_slab_without_extinction();
   expect_close(slab,
     glm::dvec3(0.0),
     [&](double, int c, const glm::dvec3&) { return 0.5 * slab.medium().emission[c]; },
     { 1e-6, 1e-6, 0.0, 0.0 });
 }
 
-namespace
-{
-
-/// The slab's voxels, classified by a ramp of the height, with an extinction of 1.3.
-struct ClassifiedSlab : Slab
-{
-  Voxels<float> ramp{ 3, 3, 5, [](int, int, int k) { return 0.25f * k; } };
-  static constexpr double sigma = 1.3;
-  static glm::dvec3 colour(double z) { return { z, 1.0 - 0.5 * z, 0.5 }; }
-
-  ClassifiedSlab()
-    : Slab(glm::dvec3(1.0), width)
-  {
-    Volume& volume = scene.volumes[0];
-    volume.grid = ramp.grid();
-    volume.meaning = ValueMeaning::Classified;
-    volume.classification = classify(
-      0.0,
-      1.0,
-      [](double) { return -std::expm1(-sigma * 0.1); },
-      [](double v) { return colour(v); },
-      5);
-    volume.classification.unit_distance = 0.1;
-  }
-};
-
-}
-
 TEST(LitMedia, ClassifiedMatterHasItsColourForAlbedo)
 {
-  ClassifiedSlab slab;
+  ClassifiedSlab slab = glowing_classified_slab();
   const double sigma = ClassifiedSlab::sigma;
-  slab.add_sun(sun_zenith, 40.0, sun_diffuse);
-  slab.medium().albedo = { 0.9, 0.8, 1.0 };
-  slab.medium().emission = { 0.1, 0.0, 0.4 };
-  slab.medium().powder = { true, 0.5, Powder::Form::Exponential, 2.0 };
-  slab.scene.volumes[0].weight = 0.75;
   const double w = 0.75;
   const double factor = 1.0 - 0.5 * std::exp(-4.0 * -std::expm1(-w * sigma * 0.1));
   expect_close(slab,
@@ -307,16 +239,9 @@ TEST(LitMedia, ClassifiedMatterHasItsColourForAlbedo)
 
 TEST(LitMedia, ShadedMatterIsShadowed)
 {
-  ClassifiedSlab slab;
+  ClassifiedSlab slab = shaded_slab();
   const double sigma = ClassifiedSlab::sigma;
-  slab.add_sun(sun_zenith, 40.0, sun_diffuse);
-  slab.scene.lights[0].specular = { 0.5, 1.0, 1.5 };
-  slab.scene.sky.radiance = { 0.3, 0.2, 0.1 };
-  slab.medium().albedo = { 0.9, 0.8, 1.0 };
-  slab.medium().octaves.count = 3; // not for shaded matter
-  Shading& shading = slab.scene.volumes[0].shading;
-  shading.enabled = true;
-  shading.ambient_light = { 0.5, 1.0, 0.7 };
+  const Shading& shading = slab.scene.volumes[0].shading;
   expect_close(slab,
     glm::dvec3(sigma),
     [&](double z, int c, const glm::dvec3& direction)
@@ -348,14 +273,7 @@ TEST(LitMedia, Mixtures)
   {
     const glm::dvec3 first(0.4, 1.0, 0.2);
     const glm::dvec3 second(1.5, 0.3, 0.3);
-    Slab slab(first, width);
-    slab.add_sun(sun_zenith, 40.0, sun_diffuse);
-    slab.scene.mixture = mixture;
-    slab.medium().albedo = { 0.5, 1.0, 0.8 };
-    Volume other = Slab(second, width).scene.volumes[0];
-    other.grid = slab.scene.volumes[0].grid;
-    other.medium.lobes = { { PhaseFunction::HenyeyGreenstein, 1.0, 0.5 } };
-    slab.scene.volumes.push_back(other);
+    Slab slab = mixed_slab(first, second, mixture);
     const bool sum_up = mixture == Mixture::Sum;
     const glm::dvec3 sum = first + second;
     const glm::dvec3 depth = sum_up ? sum : (first * first + second * second) / sum;
@@ -374,8 +292,7 @@ TEST(LitMedia, Mixtures)
 // Coloured extinction needs no light.
 TEST(LitMedia, ColouredExtinctionOfUnlitMatter)
 {
-  Slab slab(depths, width);
-  slab.medium().lit = false;
+  Slab slab = unlit_slab();
   const View view = slab.look(30.0, 1.0);
   slab.scene.camera = view.camera(1.0);
   const auto truth_of = [&](int x, int y)
@@ -390,11 +307,8 @@ TEST(LitMedia, ColouredExtinctionOfUnlitMatter)
 // A prop that is scaled unevenly: lengths are the data's, angles the world's.
 TEST(LitMedia, PlacesAreTheDatasAndAnglesTheWorlds)
 {
-  Slab slab(depths, width);
-  slab.add_sun(sun_zenith, 40.0, sun_diffuse);
-  slab.medium().lobes = { { PhaseFunction::HenyeyGreenstein, 1.0, 0.6 } };
   const glm::dvec3 scale(3.0, 0.5, 2.0);
-  slab.scene.volumes[0].world_from_data = glm::scale(glm::dmat4(1.0), scale);
+  Slab slab = scaled_slab(scale);
   const glm::dvec3 sun = glm::normalize(slab.scene.lights[0].direction / scale);
   View view = slab.look(30.0, 1.0);
   view.centre.z = 1.0;
@@ -426,32 +340,10 @@ TEST(LitMedia, PlacesAreTheDatasAndAnglesTheWorlds)
 // upper part.
 TEST(LitMedia, HiddenPartsCastNoShadow)
 {
-  std::vector<std::uint8_t> labels;
-  for (int i = 0; i < 45; ++i)
-  {
-    labels.push_back(i / 9 >= 3);
-  }
   for (const std::string way : { "cropping", "clipping plane", "mask" })
   {
-    ClassifiedSlab slab;
+    HalfHiddenSlab slab(way);
     const double sigma = ClassifiedSlab::sigma;
-    slab.add_sun(sun_zenith, 40.0, sun_diffuse);
-    Volume& volume = slab.scene.volumes[0];
-    if (way == "cropping")
-    {
-      volume.cropping.enabled = true;
-      volume.cropping.upper[0] = volume.cropping.upper[1] = 2.0;
-      volume.cropping.upper[2] = 2.5;
-    }
-    else if (way == "clipping plane")
-    {
-      volume.clipping_planes.emplace_back(0.0, 0.0, -1.0, 0.625);
-    }
-    else
-    {
-      volume.mask.labels = labels.data();
-      volume.mask.classification_of_label[1] = Mask::hidden;
-    }
     expect_close(slab,
       glm::dvec3(0.625 * sigma),
       [&](double z, int c, const glm::dvec3&)
@@ -471,18 +363,7 @@ TEST(LitMedia, WhatIsOffChangesNoBit)
   std::vector<Film> marched;
   for (const bool other : { false, true })
   {
-    Slab slab(depths, width);
-    slab.add_sun(sun_zenith, 40.0, sun_diffuse);
-    slab.scene.sky.radiance = glm::dvec3(0.3);
-    slab.medium().lobes = { { PhaseFunction::HenyeyGreenstein, 1.0, 0.6 } };
-    if (other)
-    {
-      slab.medium().octaves = { 1, 0.3, 0.2, 0.1 };
-      slab.medium().silver_lining = { false, 5.0, 0.01, 0.9 };
-      slab.medium().powder = { false, 1.0, Powder::Form::Height, 3.0 };
-      slab.medium().black_body_reference = 3000.0;
-      slab.medium().temperature_scale = 50.0;
-    }
+    Slab slab = slab_with_all_off(other);
     slab.scene.camera = view.camera(1.0);
     films.push_back(reference(slab.scene, edge, edge));
     marched.push_back(by_rays(slab.scene, edge, edge));

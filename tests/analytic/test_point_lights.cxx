@@ -1,52 +1,12 @@
 // Lamps near and in a homogeneous box: the integrals over the angle, which is where 1/r² is smooth.
-#include "../support/lit_scenes.h"
+#include "../support/lamp_box.h"
 
 #include <iostream>
 
-using namespace lit_scenes;
+using namespace lamp_box;
 
 namespace
 {
-
-constexpr int edge = 6;
-const glm::dvec3 half(4.0, 3.0, 2.5);
-const glm::dvec3 sigma(0.2, 0.1, 0.4);
-
-struct Box
-{
-  Voxels<float> voxels{ 9, 7, 6, [](int, int, int) { return 1.0f; } };
-  Scene scene;
-  View view;
-
-  Box()
-  {
-    Volume& volume = scene.volumes[0];
-    volume.grid = voxels.grid();
-    volume.data_from_index = placed(glm::dvec3(1.0), -half);
-    volume.meaning = ValueMeaning::Density;
-    volume.density.extinction = 0.4;
-    volume.density.channels = sigma / 0.4;
-    volume.medium.lit = true;
-    volume.medium.albedo = { 0.8, 1.0, 0.9 };
-    volume.medium.lobes = { { PhaseFunction::HenyeyGreenstein, 1.0, 0.4 } };
-    view = view_of(scene, glm::dvec3(0.4, 0.3, -1.0), false);
-    scene.camera = view.camera(1.0);
-  }
-};
-
-/// The stretch of a line p + t d inside the box.
-void inside(const glm::dvec3& p, const glm::dvec3& d, double& from, double& to)
-{
-  from = -1e30;
-  to = 1e30;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double a = (-half[axis] - p[axis]) / d[axis];
-    const double b = (half[axis] - p[axis]) / d[axis];
-    from = std::max(from, std::min(a, b));
-    to = std::min(to, std::max(a, b));
-  }
-}
 
 /// Irradiance without the box, as vtkLight has attenuation and cone.
 double strength(const Light& light, const glm::dvec3& place)
@@ -146,16 +106,6 @@ double worst_of(const Draw& draw, const Box& box)
     [&](int x, int y) { return truth_of(box, world_ray(box.view, x, y, edge, edge)); });
 }
 
-Light lamp(const glm::dvec3& position, const glm::dvec3& attenuation)
-{
-  Light light;
-  light.diffuse = { 1.0, 0.5, 2.0 };
-  light.positional = true;
-  light.position = position;
-  light.attenuation = attenuation;
-  return light;
-}
-
 const Draw reference = by_reference(1e-10, 256);
 
 }
@@ -163,19 +113,18 @@ const Draw reference = by_reference(1e-10, 256);
 TEST(PointLights, OutsideOfTheMedium)
 {
   Box box;
-  box.scene.lights = { lamp({ 6.0, 5.0, 3.0 }, { 0.0, 0.0, 1.0 }) };
+  box.scene.lights = { lamp(lamp_outside, { 0.0, 0.0, 1.0 }) };
   EXPECT_LE(worst_of(reference, box), 1e-5);
-  box.scene.lights = { lamp({ -4.2, 0.3, 0.1 }, { 0.0, 1.0, 0.0 }) };
+  box.scene.lights = { lamp(lamp_beside, { 0.0, 1.0, 0.0 }) };
   EXPECT_LE(worst_of(reference, box), 1e-5);
 }
 
 TEST(PointLights, InTheMedium)
 {
   Box box;
-  for (const glm::dvec3& attenuation :
-    { glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, 1.0, 0.0), glm::dvec3(0.0, 0.0, 1.0) })
+  for (const glm::dvec3& attenuation : attenuations)
   {
-    box.scene.lights = { lamp({ 0.31, -0.52, 0.73 }, attenuation) };
+    box.scene.lights = { lamp(lamp_inside, attenuation) };
     EXPECT_LE(worst_of(reference, box), 1e-5) << attenuation.x << attenuation.y << attenuation.z;
   }
 }
@@ -185,11 +134,8 @@ TEST(PointLights, InTheMedium)
 TEST(PointLights, RaysThroughTheLight)
 {
   Box box;
-  const WorldRay ray = world_ray(box.view, 2, 3, edge, edge);
-  double from, to;
-  inside(ray.begin, ray.direction, from, to);
-  const glm::dvec3 on_the_ray = ray.begin + (0.3 * from + 0.7 * to) * ray.direction;
-  const glm::dvec3 across = glm::normalize(glm::cross(ray.direction, glm::dvec3(0.3, 0.9, 0.1)));
+  const glm::dvec3 on_the_ray = place_on_a_ray(box);
+  const glm::dvec3 across = across_a_ray(box);
   for (const double away : { 1e-6, 1e-3 })
   {
     box.scene.lights = { lamp(on_the_ray + away * across, { 0.0, 0.0, 1.0 }) };
@@ -204,13 +150,9 @@ TEST(PointLights, RaysThroughTheLight)
 TEST(PointLights, Cones)
 {
   Box box;
-  for (const glm::dvec3& position : { glm::dvec3(0.3, -0.5, 2.0), glm::dvec3(1.0, 0.0, 7.0) })
+  for (const glm::dvec3& position : spots)
   {
-    Light light = lamp(position, { 0.0, 0.0, 1.0 });
-    light.direction = glm::normalize(glm::dvec3(-0.2, 0.1, -1.0));
-    light.cone_angle = 20.0;
-    light.exponent = 4.0;
-    box.scene.lights = { light };
+    box.scene.lights = { spot(position) };
     const Film film = reference(box.scene, edge, edge);
     const double error = worst_error(
       film, [&](int x, int y) { return truth_of(box, world_ray(box.view, x, y, edge, edge)); });
@@ -229,13 +171,12 @@ TEST(PointLights, Marched)
     EXPECT_LE(error, bound) << name << ", step " << step;
     std::cout << "  " << name << ", step " << step << ": " << error << "\n";
   };
-  box.scene.lights = { lamp({ 6.0, 5.0, 3.0 }, { 0.0, 0.0, 1.0 }) };
+  box.scene.lights = { lamp(lamp_outside, { 0.0, 0.0, 1.0 }) };
   look("outside", 1.0 / 16.0, 1e-2); // of a pixel that sees a corner
   look("outside", 1.0 / 64.0, 1e-3);
-  for (const glm::dvec3& attenuation :
-    { glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, 1.0, 0.0), glm::dvec3(0.0, 0.0, 1.0) })
+  for (const glm::dvec3& attenuation : attenuations)
   {
-    box.scene.lights = { lamp({ 0.31, -0.52, 0.73 }, attenuation) };
+    box.scene.lights = { lamp(lamp_inside, attenuation) };
     look("inside", 1.0 / 2.0, 1e-3);
     look("inside", 1.0 / 16.0, 1e-5);
     look("inside", 1.0 / 64.0, 1e-5);
@@ -243,13 +184,10 @@ TEST(PointLights, Marched)
     EXPECT_LE(worst_of(by_tolerance(0.004), box), 1e-3);
     EXPECT_LE(worst_of(by_tolerance(1e-5), box), 1e-5);
   }
-  const WorldRay ray = world_ray(box.view, 2, 3, edge, edge);
-  double from, to;
-  inside(ray.begin, ray.direction, from, to);
-  const glm::dvec3 on_the_ray = ray.begin + (0.3 * from + 0.7 * to) * ray.direction;
+  const glm::dvec3 on_the_ray = place_on_a_ray(box);
   box.scene.lights = { lamp(on_the_ray, { 0.2, 0.1, 0.5 }) };
   look("on a ray, bounded", 1.0 / 16.0, 1e-3);
-  const glm::dvec3 across = glm::normalize(glm::cross(ray.direction, glm::dvec3(0.3, 0.9, 0.1)));
+  const glm::dvec3 across = across_a_ray(box);
   // A lobe turns by half a circle within a step here.
   box.scene.lights = { lamp(on_the_ray + 1e-3 * across, { 0.0, 0.0, 1.0 }) };
   look("beside a ray", 1.0 / 2.0, 0.1);
@@ -265,12 +203,8 @@ TEST(PointLights, Marched)
 TEST(PointLights, FarFromTheOrigin)
 {
   Box box;
-  box.scene.lights = { lamp({ 0.31, -0.52, 0.73 }, { 0.0, 0.0, 1.0 }) };
+  box.scene.lights = { lamp(lamp_inside, { 0.0, 0.0, 1.0 }) };
   const Film here = reference(box.scene, edge, edge);
-  const glm::dvec3 far(1e5, -2e5, 3e5);
-  box.scene.volumes[0].world_from_data = glm::translate(glm::dmat4(1.0), far);
-  box.scene.lights[0].position += far;
-  box.view.centre += far;
-  box.scene.camera = box.view.camera(1.0);
+  box.move({ 1e5, -2e5, 3e5 });
   EXPECT_LE(difference(reference(box.scene, edge, edge), here), 1e-6);
 }

@@ -1,11 +1,11 @@
 // Single scattering of a sun in a homogeneous slab against Chandrasekhar's closed forms (Radiative
 // Transfer, 1960, section 7): reflected and transmitted, at many angles of sun and view, per
 // channel.
-#include "../support/lit_scenes.h"
+#include "../support/slab_scenes.h"
 
 #include <iostream>
 
-using namespace lit_scenes;
+using namespace slab_scenes;
 
 namespace
 {
@@ -30,33 +30,6 @@ double single_scattering(double depth, double mu0, const glm::dvec3& direction, 
   return scatters / mu * std::exp(-depth / mu0) * -std::expm1(-depth * difference) / difference;
 }
 
-struct Case
-{
-  const char* name;
-  glm::dvec3 depth;
-  glm::dvec3 albedo;
-  std::vector<PhaseLobe> lobes;
-};
-
-const std::vector<Case> cases = {
-  { "thin, isotropic", glm::dvec3(0.05), glm::dvec3(1.0), {} },
-  { "coloured, forward",
-    { 0.3, 1.0, 2.5 },
-    { 0.9, 0.5, 1.0 },
-    { { PhaseFunction::HenyeyGreenstein, 1.0, 0.7 } } },
-  { "thick, backward",
-    glm::dvec3(12.0),
-    { 1.0, 0.99, 0.2 },
-    { { PhaseFunction::HenyeyGreenstein, 1.0, -0.5 } } },
-  { "air", { 0.05, 0.12, 0.3 }, glm::dvec3(1.0), { { PhaseFunction::Rayleigh, 1.0, 0.0 } } },
-  { "Schlick and a mixture",
-    { 1.0, 1.0, 0.5 },
-    glm::dvec3(0.8),
-    { { PhaseFunction::Schlick, 2.0, 0.6 },
-      { PhaseFunction::HenyeyGreenstein, 1.0, -0.3 },
-      { PhaseFunction::Isotropic, 0.5, 0.0 } } },
-};
-
 /// Of a slab made of the case, under one sun.
 Truth truth_of(const Slab& slab, const Case& c, const View& view, int x, int y)
 {
@@ -79,13 +52,10 @@ double worst_of_all(const Draw& draw, const std::vector<Case>& some, const glm::
   double worst = 0.0;
   for (const Case& c : some)
   {
-    for (const double sun : { 0.0, 35.0, 60.0, 78.0 })
+    for (const double sun : suns_of_cases)
     {
-      Slab slab(c.depth);
-      slab.medium().albedo = c.albedo;
-      slab.medium().lobes = c.lobes;
-      slab.add_sun(sun, 130.0, diffuse);
-      for (const double zenith : { 0.0, 40.0, 65.0, 115.0, 145.0 })
+      Slab slab = slab_of(c, sun, diffuse);
+      for (const double zenith : views_of_cases)
       {
         const View view = slab.look(zenith);
         slab.scene.camera = view.camera(1.0);
@@ -123,10 +93,7 @@ TEST(SingleScattering, ShadowRaysOfASlab)
 // The steps and shadows that are chosen for a tolerance, a fraction of white or of the brightest.
 TEST(SingleScattering, TolerancesOfASlab)
 {
-  Slab slab(cases[1].depth, 64.0);
-  slab.medium().albedo = cases[1].albedo;
-  slab.medium().lobes = cases[1].lobes;
-  slab.add_sun(35.0, 130.0, { 1.0, 0.8, 3.0 });
+  Slab slab = slab_of(cases[1], 35.0, { 1.0, 0.8, 3.0 }, 64.0);
   const View view = slab.look(40.0, 1.0);
   slab.scene.camera = view.camera(1.0);
   for (const double tolerance : { 1e-3, 1e-5 })
@@ -147,15 +114,7 @@ TEST(SingleScattering, LightsAddUp)
   std::vector<Film> films;
   for (const int which : { 1, 2, 3 })
   {
-    Slab slab(glm::dvec3(1.0, 0.7, 0.4));
-    if (which & 1)
-    {
-      slab.add_sun(20.0, 0.0, { 1.0, 0.0, 0.5 });
-    }
-    if (which & 2)
-    {
-      slab.add_sun(70.0, 200.0, { 0.2, 2.0, 0.5 });
-    }
+    Slab slab = slab_under_two_suns(which);
     slab.scene.camera = view.camera(1.0);
     films.push_back(by_reference(1e-7)(slab.scene, edge, edge));
   }

@@ -1,21 +1,14 @@
 // vtkBrumeRayMarchMapper with a medium and without: what VTK's lights mean, against closed forms in
 // a cube of even matter; what the statistics tell; that nothing changes where there is no medium.
-#include "../support/vtk_scenes.h"
+#include "../support/lit_props.h"
 
 #include "vtkBrumeEffectPlan.h"
-#include "vtkBrumeMedium.h"
-#include "vtkBrumeRayMarchMapper.h"
-#include "vtkBrumeSky.h"
 
 #include "Transport/black_body.h"
 #include "Transport/marcher.h"
 #include "Transport/step_control.h"
 
 #include "vtkContourValues.h"
-#include "vtkFloatArray.h"
-#include "vtkLight.h"
-#include "vtkLightCollection.h"
-#include "vtkVolumeCollection.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -24,75 +17,17 @@
 #include <string>
 #include <vector>
 
-using namespace vtk_scenes;
+using namespace lit_props;
 using brume::Film;
 using nlohmann::json;
 
 namespace
 {
 
-constexpr double edge = 16.0;
-constexpr int size = 9; ///< of films; the middle pixel looks through the middle of the cube
-
-/// A cube of density 1 from (0, 0, 0) to (16, 16, 16), and a temperature of 3 in "heat".
-vtkSmartPointer<vtkImageData> cube_image()
+json statistics_of(const Cube& cube)
 {
-  auto data = image(17, 17, 17, VTK_FLOAT, [](int, int, int, int) { return 1.0; });
-  vtkNew<vtkFloatArray> heat;
-  heat->SetName("heat");
-  heat->SetNumberOfTuples(data->GetNumberOfPoints());
-  heat->Fill(3.0);
-  data->GetPointData()->AddArray(heat);
-  return data;
+  return json::parse(cube.mapper->GetStatistics());
 }
-
-/// Seen along −z in parallel projection.
-struct Cube
-{
-  vtkSmartPointer<vtkVolume> volume = volume_of();
-  vtkNew<vtkBrumeRayMarchMapper> mapper;
-  vtkNew<vtkBrumeMedium> medium;
-  vtkNew<vtkBrumeSky> sky;
-  vtkNew<vtkCamera> camera;
-  vtkNew<vtkLightCollection> lights;
-  Film film{ size, size };
-
-  Cube()
-  {
-    mapper->SetInputData(cube_image());
-    mapper->SetMedium(medium);
-    mapper->SetSky(sky);
-    mapper->SetTolerance(1e-5);
-    mapper->SetShadowMethodToRays();
-    volume->SetMapper(mapper);
-    camera->SetFocalPoint(edge / 2, edge / 2, edge / 2);
-    camera->SetPosition(edge / 2, edge / 2, 50.0);
-    camera->ParallelProjectionOn();
-    camera->SetParallelScale(6.0);
-    camera->SetClippingRange(1.0, 100.0);
-    vtkNew<vtkLight> off; // with no light at all there would be a headlight
-    off->SwitchOff();
-    lights->AddItem(off);
-  }
-  vtkSmartPointer<vtkLight> add_light(double x, double y, double z)
-  {
-    auto light = vtkSmartPointer<vtkLight>::New();
-    light->SetLightTypeToSceneLight();
-    light->SetPosition(x, y, z);
-    light->SetFocalPoint(edge / 2, edge / 2, edge / 2);
-    lights->AddItem(light);
-    return light;
-  }
-  /// The radiance of the middle pixel.
-  glm::dvec3 radiance()
-  {
-    EXPECT_TRUE(mapper->RenderFilm(volume, camera, lights, film));
-    const std::size_t middle = film.size() / 2;
-    return { film.radiance[0][middle], film.radiance[1][middle], film.radiance[2][middle] };
-  }
-  double transmittance(int channel) { return film.transmittance[channel][film.size() / 2]; }
-  json statistics() { return json::parse(mapper->GetStatistics()); }
-};
 
 void expect_rgb(const glm::dvec3& measured, double r, double g, double b, double relative)
 {
@@ -108,11 +43,7 @@ void expect_rgb(const glm::dvec3& measured, double r, double g, double b, double
 TEST(LitCube, ADirectionalLightIsAnIrradiance)
 {
   Cube cube;
-  cube.medium->SetExtinction(0.05, 0.1, 0.2);
-  cube.medium->SetAlbedo(1.0, 0.5, 0.25);
-  auto light = cube.add_light(edge / 2, edge / 2, 40.0);
-  light->SetIntensity(2.0);
-  light->SetColor(1.0, 0.8, 0.6);
+  auto light = cube.light_from_the_front();
   const auto exact = [](double sigma, double albedo, double colour)
   { return albedo * 0.25 * 2.0 * colour * -std::expm1(-2.0 * sigma * edge) / 2.0; };
   expect_rgb(
@@ -123,9 +54,7 @@ TEST(LitCube, ADirectionalLightIsAnIrradiance)
   const glm::dvec3 scene_light = cube.radiance();
   light->SetLightTypeToHeadlight();
   expect_rgb(cube.radiance(), scene_light.x, scene_light.y, scene_light.z, 1e-6);
-  light->SetLightTypeToCameraLight();
-  light->SetPosition(0, 0, 1);
-  light->SetFocalPoint(0, 0, 0);
+  put_at_the_camera(light);
   expect_rgb(cube.radiance(), scene_light.x, scene_light.y, scene_light.z, 1e-6);
   light->SwitchOff();
   expect_rgb(cube.radiance(), 0, 0, 0, 0);
@@ -135,14 +64,11 @@ TEST(LitCube, ADirectionalLightIsAnIrradiance)
 TEST(LitCube, SeveralLightsAddUp)
 {
   Cube cube;
-  cube.medium->SetExtinction(0.05);
   const double sigma = 0.05;
+  cube.light_from_three_sides(sigma);
   const double front = 0.25 * -std::expm1(-2.0 * sigma * edge) / 2.0;
   const double side = 0.25 * std::exp(-sigma * edge / 2.0) * -std::expm1(-sigma * edge);
   const double back = 0.25 * sigma * edge * std::exp(-sigma * edge);
-  cube.add_light(edge / 2, edge / 2, 90.0)->SetColor(1, 0, 0);
-  cube.add_light(90.0, edge / 2, edge / 2)->SetColor(0, 1, 0);
-  cube.add_light(edge / 2, edge / 2, -90.0)->SetColor(0, 0, 1);
   expect_rgb(cube.radiance(), front, side, back, 2e-4);
   // The phase function tells front from back: θ = 0 is light that goes on toward the viewer.
   const double g = 0.5;
@@ -160,10 +86,7 @@ TEST(LitCube, PointAndSpotLightsWeakenAsVTKHasIt)
   const double sigma = 1e-6;
   cube.medium->SetExtinction(sigma);
   cube.mapper->SetTolerance(1e-12);
-  auto lamp = cube.add_light(40.0, edge / 2, edge / 2);
-  lamp->PositionalOn();
-  lamp->SetConeAngle(180.0);
-  lamp->SetAttenuationValues(0.5, 0.25, 0.125);
+  auto lamp = cube.add_lamp();
   const double far = 40.0 - edge / 2;
   const int n = 4000;
   const auto sum = [&](auto strength)
@@ -180,8 +103,7 @@ TEST(LitCube, PointAndSpotLightsWeakenAsVTKHasIt)
   const double point = sum(weakened);
   expect_rgb(cube.radiance(), point, point, point, 1e-3);
   // A spot toward the middle: all within ±14° of its axis, of a fall-off cos³.
-  lamp->SetConeAngle(20.0);
-  lamp->SetExponent(3.0);
+  make_spot(lamp);
   const double spot = sum([&](double d) { return weakened(d) * std::pow(far / d, 3.0); });
   expect_rgb(cube.radiance(), spot, spot, spot, 1e-3);
   // And none of it.
@@ -195,17 +117,10 @@ TEST(LitCube, SkyGroundAndEnvironmentAreRadiances)
   const double sigma = 1e-6;
   cube.medium->SetExtinction(sigma);
   cube.mapper->SetTolerance(1e-12);
-  cube.sky->SetSkyRadiance(1.0, 0.5, 0.0);
-  cube.sky->SetGroundRadiance(0.0, 0.5, 0.25);
+  cube.put_under_sky();
   const double thin = sigma * edge;
   expect_rgb(cube.radiance(), 0.5 * thin, 0.5 * thin, 0.125 * thin, 2e-3);
-  cube.sky->SetSkyRadiance(0, 0, 0);
-  cube.sky->SetGroundRadiance(0, 0, 0);
-  vtkNew<vtkImageData> map;
-  map->SetDimensions(32, 16, 1);
-  map->AllocateScalars(VTK_FLOAT, 3);
-  map->GetPointData()->GetScalars()->Fill(0.75);
-  cube.sky->SetEnvironmentMap(map);
+  cube.put_under_a_map(0.75);
   expect_rgb(cube.radiance(), 0.75 * thin, 0.75 * thin, 0.75 * thin, 2e-3);
 }
 
@@ -213,15 +128,10 @@ TEST(LitCube, MatterGlows)
 {
   Cube cube;
   const double sigma = 0.1;
-  cube.medium->SetExtinction(sigma);
-  cube.medium->SetEmission(0.01, 0.02, 0.03);
+  cube.glow(sigma);
   const double seen = -std::expm1(-sigma * edge) / sigma; // ∫ e^(−σ s) ds
   expect_rgb(cube.radiance(), 0.01 * seen, 0.02 * seen, 0.03 * seen, 1e-3);
-  cube.medium->SetEmission(0.0);
-  cube.medium->SetBlackBody(0.01);
-  cube.medium->SetBlackBodyReference(1500.0);
-  cube.medium->SetTemperatureArrayName("heat");
-  cube.medium->SetTemperatureScale(600.0); // 3 · 600 kelvin
+  cube.glow_of_heat();
   const glm::dvec3 glow = brume::black_body_radiance(1800.0, 1500.0);
   EXPECT_GT(glow.x, 2.0);
   expect_rgb(
@@ -231,48 +141,12 @@ TEST(LitCube, MatterGlows)
 TEST(LitCube, ClassifiedMatterScattersItsColour)
 {
   Cube cube;
-  vtkNew<vtkPiecewiseFunction> opacity;
-  opacity->AddPoint(1.0, 1.0 - std::exp(-0.2));
-  vtkNew<vtkColorTransferFunction> colour;
-  colour->AddRGBPoint(1.0, 1.0, 0.5, 0.25);
-  vtkVolumeProperty* property = cube.volume->GetProperty();
-  property->SetScalarOpacity(opacity);
-  property->SetColor(colour);
-  property->SetScalarOpacityUnitDistance(4.0); // σt = 0.05
-  cube.medium->SetAlbedo(0.9, 0.9, 0.5);
-  cube.add_light(edge / 2, edge / 2, 40.0);
+  cube.classify();
   const double lit = 0.25 * -std::expm1(-2.0 * 0.05 * edge) / 2.0;
   expect_rgb(cube.radiance(), 0.9 * lit, 0.45 * lit, 0.125 * lit, 1e-3);
 }
 
 // Several volumes as one. ------------------------------------------------------------------------
-
-/// Two cubes side by side along x, the first in the middle of the picture.
-struct TwoCubes
-{
-  Cube first;
-  Cube second;
-  vtkNew<vtkVolumeCollection> volumes;
-
-  TwoCubes(double sigma)
-  {
-    for (Cube* cube : { &first, &second })
-    {
-      cube->medium->SetExtinction(sigma);
-      cube->mapper->SetSky(nullptr);
-      volumes->AddItem(cube->volume);
-    }
-    second.volume->SetPosition(20.0, 0.0, 0.0);
-  }
-  glm::dvec3 radiance()
-  {
-    EXPECT_TRUE(first.mapper->RenderFilm(volumes, first.camera, first.lights, first.film));
-    const std::size_t middle = first.film.size() / 2;
-    return {
-      first.film.radiance[0][middle], first.film.radiance[1][middle], first.film.radiance[2][middle]
-    };
-  }
-};
 
 TEST(LitTogether, EachCastsItsShadowOnTheOther)
 {
@@ -306,8 +180,7 @@ TEST(LitTogether, TheFirstSkyLightsAll)
 TEST(LitStatistics, TellOfLight)
 {
   Cube cube;
-  cube.medium->SetExtinction(0.05);
-  cube.add_light(edge, 30.0, 60.0);
+  cube.light_aslant();
   const std::pair<int, const char*> methods[] = {
     { vtkBrumeRayMarchMapper::RayShadows, "rays" },
     { vtkBrumeRayMarchMapper::VolumeShadows, "volume" },
@@ -319,7 +192,7 @@ TEST(LitStatistics, TellOfLight)
     cube.mapper->SetShadowMethod(method);
     cube.mapper->SetShadowSampleDistance(0.75);
     cube.radiance();
-    const json told = cube.statistics();
+    const json told = statistics_of(cube);
     EXPECT_EQ(told["shadow_method"], name);
     const bool kept = method == vtkBrumeRayMarchMapper::VolumeShadows ||
                       method == vtkBrumeRayMarchMapper::FunctionShadows;
@@ -337,13 +210,12 @@ TEST(LitStatistics, TellOfLight)
 TEST(LitStatistics, NameEveryEffectAndWhatIsForced)
 {
   Cube cube;
-  cube.medium->SetExtinction(0.05);
-  cube.add_light(edge, 30.0, 60.0);
+  cube.light_aslant();
   EXPECT_GT(cube.radiance().x, 0.01);
   const double through = cube.transmittance(0);
   const auto effect = [&](const std::string& name)
   {
-    const json statistics = cube.statistics();
+    const json statistics = statistics_of(cube);
     for (const json& one : statistics["effects"])
     {
       if (one["name"] == name)
@@ -382,7 +254,7 @@ TEST(LitStatistics, NameEveryEffectAndWhatIsForced)
   EXPECT_EQ(effect("scattering")["on"], false);
   EXPECT_EQ(effect("scattering")["forced"], true);
   EXPECT_GT(effect("scattering")["error_bound"].get<double>(), 0.01);
-  EXPECT_GT(cube.statistics()["effects_error_bound"].get<double>(), 0.01);
+  EXPECT_GT(statistics_of(cube)["effects_error_bound"].get<double>(), 0.01);
   cube.mapper->GetEffectPlan()->ForceNothing();
   EXPECT_GT(cube.radiance().x, 0.01);
   EXPECT_EQ(effect("scattering")["forced"], false);
@@ -391,30 +263,26 @@ TEST(LitStatistics, NameEveryEffectAndWhatIsForced)
 TEST(LitStatistics, SayWhatIsNotRadiometric)
 {
   Cube cube;
-  cube.medium->SetExtinction(0.05);
-  cube.medium->SetAnisotropy(0.3);
-  cube.medium->SetNumberOfOctaves(3);
-  cube.add_light(edge / 2, edge / 2, -40.0);
+  cube.light_from_behind();
   const glm::dvec3 physical = cube.radiance();
-  EXPECT_EQ(cube.statistics()["radiometric"], true);
+  EXPECT_EQ(statistics_of(cube)["radiometric"], true);
   cube.medium->SilverLiningOn();
   EXPECT_GT(cube.radiance().x, 1.1 * physical.x);
-  EXPECT_EQ(cube.statistics()["radiometric"], false);
+  EXPECT_EQ(statistics_of(cube)["radiometric"], false);
   cube.medium->SilverLiningOff();
   cube.medium->PowderOn();
   EXPECT_LT(cube.radiance().x, 0.95 * physical.x);
-  EXPECT_EQ(cube.statistics()["radiometric"], false);
+  EXPECT_EQ(statistics_of(cube)["radiometric"], false);
   cube.medium->PowderOff();
   EXPECT_EQ(cube.radiance(), physical);
-  EXPECT_EQ(cube.statistics()["radiometric"], true);
+  EXPECT_EQ(statistics_of(cube)["radiometric"], true);
 }
 
 TEST(LitStatistics, ThePictureIsTheSameForAnyNumberOfThreads)
 {
   Cube cube;
-  cube.medium->SetExtinction(0.05);
+  cube.light_aslant();
   cube.mapper->SetShadowMethodToAutomatic();
-  cube.add_light(edge, 30.0, 60.0);
   cube.sky->SetSkyRadiance(0.1, 0.2, 0.3);
   cube.mapper->SetNumberOfThreads(1);
   cube.radiance();

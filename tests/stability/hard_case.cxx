@@ -87,14 +87,22 @@ HardCase::~HardCase()
 
 void HardCase::ran(const std::string& by)
 {
-  if (!by.empty() && std::find(this->By.begin(), this->By.end(), by) == this->By.end())
+  for (std::size_t at = 0; at < by.size();)
   {
-    this->By.push_back(by);
+    const std::size_t end = std::min(by.find(", ", at), by.size());
+    const std::string one = by.substr(at, end - at);
+    if (std::find(this->By.begin(), this->By.end(), one) == this->By.end())
+    {
+      this->By.push_back(one);
+    }
+    at = end + 2;
   }
 }
 
-HardCase& HardCase::measure(
-  double value, double bound, const std::string& unit, const std::string& by)
+HardCase& HardCase::measure(double value,
+  double bound,
+  const std::string& unit,
+  const std::string& by)
 {
   EXPECT_LE(value, bound) << this->Name << ": " << unit << ", " << by;
   EXPECT_GE(value, 0.0) << this->Name << ": " << unit << ", " << by;
@@ -117,23 +125,29 @@ HardCase& HardCase::measure(
 
 HardCase& HardCase::holds(bool held, const std::string& what, const std::string& by)
 {
-  EXPECT_TRUE(held) << this->Name << ": " << what << ", " << by;
+  return this->holds(held ? 1 : 0, 1, what, by);
+}
+
+HardCase& HardCase::holds(int held, int tried, const std::string& what, const std::string& by)
+{
+  EXPECT_EQ(held, tried) << this->Name << ": " << what << ", " << by;
   this->ran(by);
   for (Measured& known : this->Figures)
   {
     if (known.counted && known.unit == what)
     {
-      known.value += held ? 1.0 : 0.0;
-      known.bound += 1.0;
+      known.value += held;
+      known.bound += tried;
       return *this;
     }
   }
-  this->Figures.push_back({ what, held ? 1.0 : 0.0, 1.0, true });
+  this->Figures.push_back({ what, double(held), double(tried), true });
   return *this;
 }
 
-HardCase& HardCase::refuses(
-  const std::string& message, const std::string& part, const std::string& by)
+HardCase& HardCase::refuses(const std::string& message,
+  const std::string& part,
+  const std::string& by)
 {
   const bool named = !message.empty() && message.find(part) != std::string::npos;
   EXPECT_TRUE(named) << this->Name << ", " << by << ": \"" << message << "\" does not name \""

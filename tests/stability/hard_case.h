@@ -1,5 +1,5 @@
-// Hard cases: each is asserted and recorded in one go, so that docs/dev/hard-cases.md lists what the
-// tests have measured and nothing else.
+// Hard cases: each is asserted and recorded in one go, so that docs/dev/hard-cases.md lists what
+// the tests have measured and nothing else.
 #pragma once
 
 #include <string>
@@ -15,8 +15,8 @@ namespace brume_tests
 ///       thin.measure(error, 1e-7, "relative", target);
 ///
 /// Whatever is measured is also expected: a value above its bound, or NaN, fails the running test.
-/// Of several values of one unit the worst beside its bound is told, with the names of all that gave
-/// one. A case without any measurement fails.
+/// Of several values of one unit the worst beside its bound is told, with the names of all that
+/// gave one. A case without any measurement fails.
 ///
 /// Where the environment variable BRUME_HARD_CASES names a folder, the program's cases are written
 /// to FOLDER/PROGRAM.json. Two cases of a program in one group must not share a name.
@@ -31,12 +31,16 @@ public:
   HardCase& operator=(const HardCase&) = delete;
 
   /// Expects value ≤ bound, both ≥ 0. `unit` is what the value is ("relative", "of white", "ulp");
-  /// `by` is what was run: an integrator, a mapper, a SIMD target.
+  /// `by` is what was run: an integrator, a mapper, a SIMD target, or several with ", " between.
   HardCase& measure(double value, double bound, const std::string& unit, const std::string& by);
 
   /// Expects that something held that has no figure. `what` says it in a few words ("no pixel is
   /// NaN"); how often it was asked is told.
   HardCase& holds(bool held, const std::string& what, const std::string& by);
+
+  /// Expects that something held as often as it was tried: expect_property()'s result, and
+  /// property_trials().
+  HardCase& holds(int held, int tried, const std::string& what, const std::string& by);
 
   /// Expects that `message`, an error's text, names `part`: what is refused must say why.
   HardCase& refuses(const std::string& message, const std::string& part, const std::string& by);

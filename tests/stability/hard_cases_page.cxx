@@ -23,7 +23,11 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-const std::vector<std::string> groups = { "Optics", "Rays", "Data", "Media", "Machines",
+const std::vector<std::string> groups = { "Optics",
+  "Rays",
+  "Data",
+  "Media",
+  "Machines",
   "Invariants" };
 
 /// The place of a group on the page; others follow by name.
@@ -58,7 +62,8 @@ Cases read_records(const std::string& folder)
         if (other.at("name") == one.at("name"))
         {
           throw std::runtime_error(file.string() + ": another program has a case \"" +
-            one.at("name").get<std::string>() + "\": give one of them another name");
+                                   one.at("name").get<std::string>() +
+                                   "\": give one of them another name");
         }
       }
       group.push_back(one);
@@ -97,9 +102,10 @@ std::string measured(const Json& one)
     out += out.empty() ? "" : "; ";
     const std::string unit = each.at("unit");
     const auto times = [](const Json& n) { return std::to_string(std::lround(n.get<double>())); };
-    out += each.at("counted").get<bool>()
-      ? unit + ": " + times(each.at("value")) + " of " + times(each.at("bound"))
-      : figure(each.at("value")) + " " + unit + " (at most " + figure(each.at("bound")) + ")";
+    out +=
+      each.at("counted").get<bool>()
+        ? unit + ": " + times(each.at("value")) + " of " + times(each.at("bound"))
+        : figure(each.at("value")) + " " + unit + " (at most " + figure(each.at("bound")) + ")";
   }
   std::string by;
   for (const Json& each : one.at("by"))
@@ -123,11 +129,13 @@ void write_page(std::ostream& out, const Cases& cases, const std::string& machin
   {
     count += rows.size();
   }
-  out << "# Hard cases\n\n"
-         "Where renderers of volumes commonly fail, what Brume promises there, and what was measured. "
-         "`scripts/hard-cases` writes this\npage from the results of the tests of label `stability`; "
-         "a case whose figure exceeds its bound fails its test.\n\n"
-      << count << " cases.";
+  out
+    << "# Hard cases\n\n"
+       "Where renderers of volumes commonly fail, what Brume promises there, and what was "
+       "measured. "
+       "`scripts/hard-cases` writes this\npage from the results of the tests of label `stability`; "
+       "a case whose figure exceeds its bound fails its test.\n\n"
+    << count << " cases.";
   if (!machine.empty())
   {
     out << " Figures of " << machine << "; other processors differ in the last digits.";
@@ -159,7 +167,8 @@ std::vector<std::string> promises_of(std::istream& page)
     }
     else if (in_group && line.rfind("| ", 0) == 0 && line.rfind("| case |", 0) != 0)
     {
-      const std::size_t end = line.size() > 2 ? line.rfind(" | ", line.size() - 3) : std::string::npos;
+      const std::size_t end =
+        line.size() > 2 ? line.rfind(" | ", line.size() - 3) : std::string::npos;
       out.push_back(end == std::string::npos ? line : line.substr(0, end + 2));
     }
   }
@@ -179,7 +188,8 @@ int check_page(const std::string& page, const Cases& cases)
   write_page(fresh, cases, "");
   const std::vector<std::string> wanted = promises_of(fresh);
   int differences = 0;
-  const auto tell = [&](const std::vector<std::string>& some, const std::vector<std::string>& others,
+  const auto tell = [&](const std::vector<std::string>& some,
+                      const std::vector<std::string>& others,
                       const char* what)
   {
     for (const std::string& line : some)
@@ -214,7 +224,8 @@ int main(int argc, char** argv)
   const bool write = words.size() == 2 || (words.size() == 4 && words[2] == "--machine");
   if (!check && !write)
   {
-    std::cerr << "hard-cases-page: usage: hard-cases-page RECORDS PAGE [--check | --machine TEXT]\n";
+    std::cerr
+      << "hard-cases-page: usage: hard-cases-page RECORDS PAGE [--check | --machine TEXT]\n";
     return 2;
   }
   try

@@ -12,12 +12,12 @@
 namespace brume_tests
 {
 
-/// How many random arguments a property is tried with: BRUME_PROPERTY_TRIALS where that is set, else
-/// `few`. Throws std::invalid_argument if it is set and is not a number from 1 on.
+/// How many random arguments a property is tried with: BRUME_PROPERTY_TRIALS where that is set,
+/// else `few`. Throws std::invalid_argument if it is set and is not a number from 1 on.
 int property_trials(int few);
 
-/// The seed of every property: BRUME_PROPERTY_SEED, else one that never changes, so that a run can be
-/// repeated.
+/// The seed of every property: BRUME_PROPERTY_SEED, else one that never changes, so that a run can
+/// be repeated.
 std::uint64_t property_seed();
 
 /// Tries `property`, a function of arguments that RapidCheck can make, or one that draws them with
@@ -31,8 +31,7 @@ int expect_property(const std::string& name, int few, Property&& property)
   parameters.maxSuccess = property_trials(few);
   rc::detail::TestMetadata what;
   what.id = what.description = name;
-  const auto result =
-    rc::detail::checkTestable(std::forward<Property>(property), what, parameters);
+  const auto result = rc::detail::checkTestable(std::forward<Property>(property), what, parameters);
   if (result.template is<rc::detail::SuccessResult>())
   {
     return result.template get<rc::detail::SuccessResult>().numSuccess;

@@ -16,14 +16,15 @@
 using namespace brume;
 using namespace brume_tests;
 
-// −ln(1 − α) and 1 − e^(−τ) are inverses; long double is the truth. Opacities near 1 have lost their
-// digits before they come here, so the bound is on the transmittance that is left.
+// −ln(1 − α) and 1 − e^(−τ) are inverses; long double is the truth. Opacities near 1 have lost
+// their digits before they come here, so the bound is on the transmittance that is left.
 TEST(OpticsEnds, OpacityAndExtinction)
 {
   HardCase both("Optics",
     "opacity to extinction and back, α from 1e-30 to 1",
     "`log(1 − α)` and `1 − e^(−τ)` lose every digit where α is small; α = 1 is infinitely dense",
-    "α comes back within a relative 4e-16 up to ½, and within 2e-16 absolute above; α = 1 and beyond "
+    "α comes back within a relative 4e-16 up to ½, and within 2e-16 absolute above; α = 1 and "
+    "beyond "
     "count as 1 − 1e-16, NaN and below 0 as 0");
   double relative = 0.0;
   double absolute = 0.0;
@@ -69,7 +70,8 @@ TEST(OpticsEnds, BlackBody)
     "a black body from 0 K to 1e5 K",
     "Planck's `e^(hc/λkT) − 1` overflows where it is cold and cancels where it is hot; its visible "
     "radiance spans 300 decades",
-    "finite, never negative, 0 at 0 K, grows with the temperature in every channel from the reference on; "
+    "finite, never negative, 0 at 0 K, grows with the temperature in every channel from the "
+    "reference on; "
     "beyond 1e5 K as at 1e5 K");
   double fall = 0.0;
   bool finite = true;
@@ -87,13 +89,15 @@ TEST(OpticsEnds, BlackBody)
     }
     last = now;
   }
-  body.measure(std::max(fall, 0.0), 0.0, "relative fall from one temperature to a hotter one", "double");
+  body.measure(
+    std::max(fall, 0.0), 0.0, "relative fall from one temperature to a hotter one", "double");
   body.holds(finite, "finite and not negative", "double");
   body.holds(black_body_radiance(0.0, 1500.0) == glm::dvec3(0.0), "0 K is black", "double");
   for (const double kelvin : { 1e-300, 1e-3, 1.0 })
   {
-    body.holds(
-      glm::length(black_body_radiance(kelvin, 1500.0)) < 1e-300, "colder than 1 K is black", "double");
+    body.holds(glm::length(black_body_radiance(kelvin, 1500.0)) < 1e-300,
+      "colder than 1 K is black",
+      "double");
   }
   body.holds(black_body_radiance(1e300, 1500.0) == black_body_radiance(1e5, 1500.0),
     "beyond the end as at it",

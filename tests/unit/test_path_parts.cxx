@@ -128,7 +128,8 @@ TEST(PhaseSampler, StaysItselfNearOne)
 namespace
 {
 
-PathBricks some_bricks(int nx, int ny, int nz, int every)
+/// Every so many bricks hold anything; `cells`: every other of these a third of its cells.
+PathBricks some_bricks(int nx, int ny, int nz, int every, bool cells)
 {
   PathBricks bricks;
   const int dims[3] = { nx, ny, nz };
@@ -139,6 +140,16 @@ PathBricks some_bricks(int nx, int ny, int nz, int every)
   {
     const bool seen = every > 0 && (i * 7 + i / 5) % every == 0;
     bricks.rate.push_back(seen ? 1.0 : 0.0);
+    if (cells)
+    {
+      const bool split = seen && i % 2 == 0;
+      bricks.first_cell.push_back(split ? static_cast<int>(bricks.cell_rate.size()) : -1);
+      for (int cell = 0; split && cell < 512; ++cell)
+      {
+        bricks.cell_rate.push_back((cell * 5 + cell / 7) % 3 == 0 ? 0.5 : 0.0);
+        bricks.cell_least.push_back(0.0);
+      }
+    }
     bricks.least.push_back(0.0);
     ranges.minimum.push_back(0.0f);
     ranges.maximum.push_back(seen ? 1.0f : 0.0f);
@@ -148,15 +159,33 @@ PathBricks some_bricks(int nx, int ny, int nz, int every)
   return bricks;
 }
 
+/// The rate of the brick or cell that holds a place.
+double rate_at(const PathBricks& bricks, const glm::dvec3& place)
+{
+  std::size_t brick = 0;
+  std::size_t cell = 0;
+  for (int axis = 2; axis >= 0; --axis)
+  {
+    const int b =
+      std::min(std::max(static_cast<int>(std::floor(place[axis] / 8.0)), 0), bricks.dims[axis] - 1);
+    const int c = std::min(std::max(static_cast<int>(std::floor(place[axis])) - 8 * b, 0), 7);
+    brick = brick * bricks.dims[axis] + b;
+    cell = cell * 8 + c;
+  }
+  const int first = bricks.has_cells() ? bricks.first_cell[brick] : -1;
+  return first < 0 ? bricks.rate[brick] : bricks.cell_rate[first + cell];
+}
+
 }
 
 // Every place of a ray that is in a brick of a rate above 0, and no other, is in one of its stretches,
 // which follow one another; whatever the ray's direction. In cells the outer half voxel belongs, too.
 TEST(BrickWalk, MeetsWhatThereIs)
 {
-  for (int every : { 1, 3, 11, 60, 0 })
+  for (int kind : { 1, 3, 11, 60, 0, -1, -3, -11 })
   {
-    const PathBricks bricks = some_bricks(5, 4, 6, every);
+    const int every = std::abs(kind);
+    const PathBricks bricks = some_bricks(5, 4, 6, every, kind < 0);
     RandomStream random(5, every, 0);
     for (int n = 0; n < 3000; ++n)
     {
@@ -187,23 +216,23 @@ TEST(BrickWalk, MeetsWhatThereIs)
         ASSERT_LT(walk.from(), walk.to());
         ASSERT_GE(walk.from(), last);
         ASSERT_LE(walk.to(), to);
-        ASSERT_GT(bricks.rate[walk.brick()], 0.0);
+        const glm::dvec3 middle = begin + 0.5 * (walk.from() + walk.to()) * along;
+        if (walk.to() - walk.from() > 1e-9)
+        {
+          ASSERT_EQ(walk.rate(), rate_at(bricks, middle)) << kind << ", ray " << n;
+        }
         last = walk.to();
         stretches.emplace_back(walk.from(), walk.to());
-        ASSERT_LT(stretches.size(), 100u);
+        ASSERT_LT(stretches.size(), 200u);
       }
       for (int i = 0; i < 50; ++i)
       {
         const double t = to * random.uniform();
         const glm::dvec3 place = begin + t * along;
-        std::size_t index = 0;
         bool near_border = false;
-        for (int axis = 2; axis >= 0; --axis)
+        for (int axis = 0; axis < 3; ++axis)
         {
-          const double brick = std::floor(place[axis] / 8.0);
-          near_border |= std::abs(place[axis] / 8.0 - std::round(place[axis] / 8.0)) < 1e-9;
-          const int b = std::min(std::max(static_cast<int>(brick), 0), bricks.dims[axis] - 1);
-          index = index * bricks.dims[axis] + b;
+          near_border |= std::abs(place[axis] - std::round(place[axis])) < 1e-8;
         }
         if (near_border)
         {
@@ -211,7 +240,7 @@ TEST(BrickWalk, MeetsWhatThereIs)
         }
         const bool met = std::any_of(stretches.begin(), stretches.end(),
           [t](const auto& s) { return s.first <= t && t <= s.second; });
-        ASSERT_EQ(met, bricks.rate[index] > 0.0) << every << ", ray " << n << " at " << t;
+        ASSERT_EQ(met, rate_at(bricks, place) > 0.0) << kind << ", ray " << n << " at " << t;
       }
     }
   }
