@@ -19,7 +19,8 @@ namespace
 double ball(int i, int j, int k)
 {
   const glm::dvec3 p(i / 10.0 - 1.1, j / 9.0 - 1.0, k / 8.5 - 0.9);
-  return 100.0 / (1.0 + std::exp(10.0 * (glm::length(p) - 0.75 - 0.07 * std::sin(9.0 * p.x + 7.0 * p.y))));
+  return 100.0 /
+         (1.0 + std::exp(10.0 * (glm::length(p) - 0.75 - 0.07 * std::sin(9.0 * p.x + 7.0 * p.y))));
 }
 
 struct Matter
@@ -102,7 +103,10 @@ MarchSettings settings_of(double step)
   return settings;
 }
 
-Artist marching(const std::string& name, const Scene& scene, const MarchSettings& settings, double error)
+Artist marching(const std::string& name,
+  const Scene& scene,
+  const MarchSettings& settings,
+  double error)
 {
   Artist artist;
   artist.name = name;
@@ -167,15 +171,16 @@ std::vector<Artist> artists()
   settings.refine_error = 1e-4;
   settings.jitter = true;
   all.push_back(marching("refined", classified_scene(), settings, 2e-3));
-  // A jittered pixel is refined or not by an estimate on the edge: targets then differ by what it tells.
+  // A jittered pixel is refined or not by an estimate on the edge: targets then differ by what it
+  // tells.
   all.back().apart = 2e-3;
 
   Scene shaded = classified_scene();
   shaded.volumes[0].shading.enabled = true;
   add_lights(shaded);
   all.push_back(marching("shaded", shaded, settings_of(0.125), 8e-3));
-  // pow(cos, 10) magnifies rounding. Normals that turn to the viewer make jumps within cells, whose error
-  // falls with the step, not with its square.
+  // pow(cos, 10) magnifies rounding. Normals that turn to the viewer make jumps within cells, whose
+  // error falls with the step, not with its square.
   all.back().apart = 1e-4;
 
   for (const ShadowMethod shadows :
@@ -183,8 +188,10 @@ std::vector<Artist> artists()
   {
     MarchSettings lit = settings_of(0.25);
     lit.shadows = shadows;
-    all.push_back(marching(std::string("lit, shadow ") + shadow_method_name(shadows), lit_scene(floats),
-      lit, shadows == ShadowMethod::Rays ? 2e-3 : 3e-2));
+    all.push_back(marching(std::string("lit, shadow ") + shadow_method_name(shadows),
+      lit_scene(floats),
+      lit,
+      shadows == ShadowMethod::Rays ? 2e-3 : 3e-2));
     all.back().apart = 1e-4; // 16 bits a node, and cosines of the functions
   }
   Scene fog = lit_scene(floats);
@@ -202,8 +209,10 @@ std::vector<Artist> artists()
 
   Scene projected = classified_scene();
   for (const auto& [mode, name] : { std::pair(BlendMode::MaximumIntensity, "maximum"),
-         std::pair(BlendMode::AverageIntensity, "average"), std::pair(BlendMode::Additive, "additive"),
-         std::pair(BlendMode::Isosurface, "isosurface"), std::pair(BlendMode::Slice, "slice") })
+         std::pair(BlendMode::AverageIntensity, "average"),
+         std::pair(BlendMode::Additive, "additive"),
+         std::pair(BlendMode::Isosurface, "isosurface"),
+         std::pair(BlendMode::Slice, "slice") })
   {
     projected.blend_mode = mode;
     projected.isosurfaces = { 40.0, 70.0 };

@@ -16,8 +16,8 @@ struct Artist
   std::string name;
   /// Fills the film with a picture that is the same each time. Returns whether it was completed.
   std::function<bool(Film& film, int threads, const Progress& progress)> draw;
-  /// Largest difference between SIMD targets, of white; below 0 where there are none, and 0 for paths,
-  /// which differ by their noise.
+  /// Largest difference between SIMD targets, of white; below 0 where there are none, and 0 for
+  /// paths, which differ by their noise.
   double apart = 1e-5;
   /// Draws the same scene in double precision, for the error of `draw`, of white; null: none.
   std::function<void(Film& film)> truth;

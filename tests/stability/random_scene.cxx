@@ -42,8 +42,8 @@ glm::dvec3 colour()
 /// Voxels of one of some kinds: even, ramps, noise, sparse noise, a step.
 std::shared_ptr<std::vector<float>> draw_voxels(const glm::ivec3& dims)
 {
-  auto values = std::make_shared<std::vector<float>>(
-    static_cast<std::size_t>(dims.x) * dims.y * dims.z);
+  auto values =
+    std::make_shared<std::vector<float>>(static_cast<std::size_t>(dims.x) * dims.y * dims.z);
   const int kind = *rc::gen::inRange(0, 5);
   std::mt19937 random(*rc::gen::inRange(0, 1 << 30));
   std::uniform_real_distribution<float> any(0.0f, 1.0f);
@@ -56,11 +56,11 @@ std::shared_ptr<std::vector<float>> draw_voxels(const glm::ivec3& dims)
       for (int i = 0; i < dims.x; ++i, ++at)
       {
         const float noise = any(random);
-        (*values)[at] = kind == 0 ? 1.0f
-          : kind == 1             ? 0.1f + 0.9f * i / dims.x
-          : kind == 2             ? noise
-          : kind == 3             ? (noise > 0.9f ? noise : 0.0f)
-                                  : (i >= edge ? 1.0f : 0.0f);
+        (*values)[at] = kind == 0   ? 1.0f
+                        : kind == 1 ? 0.1f + 0.9f * i / dims.x
+                        : kind == 2 ? noise
+                        : kind == 3 ? (noise > 0.9f ? noise : 0.0f)
+                                    : (i >= edge ? 1.0f : 0.0f);
       }
     }
   }
@@ -145,8 +145,10 @@ void draw_medium(Medium& medium)
   for (int i = 0; i < lobes; ++i)
   {
     PhaseLobe lobe;
-    lobe.function = *rc::gen::element(PhaseFunction::Isotropic, PhaseFunction::Rayleigh,
-      PhaseFunction::HenyeyGreenstein, PhaseFunction::Schlick);
+    lobe.function = *rc::gen::element(PhaseFunction::Isotropic,
+      PhaseFunction::Rayleigh,
+      PhaseFunction::HenyeyGreenstein,
+      PhaseFunction::Schlick);
     lobe.weight = between(0.1, 1.0);
     lobe.anisotropy = between(-0.9, 0.9);
     medium.lobes.push_back(lobe);
@@ -191,7 +193,7 @@ RandomScene draw_scene(const SceneWishes& wishes)
     {
       // Others overlap the first.
       const glm::dvec3 corner = middle + direction() * (0.5 * result.voxel * dims.x) -
-        0.5 * result.voxel * glm::dvec3(dims - 1);
+                                0.5 * result.voxel * glm::dvec3(dims - 1);
       volume.data_from_index = placed(glm::dvec3(result.voxel * between(0.5, 1.5)), corner);
     }
     const double edge = edge_of(volume.data_from_index);

@@ -91,8 +91,8 @@ void light_ramp(const RampRay& ray, Scene& scene, Sends sends)
   scene.lights.push_back(sun);
 }
 
-/// A sun behind the camera, whose light comes and goes the same way: the whole box counts, not only what
-/// lies before the near plane.
+/// A sun behind the camera, whose light comes and goes the same way: the whole box counts, not only
+/// what lies before the near plane.
 Pixel lit_truth(const RampRay& ray, Sends sends)
 {
   const double depth = ray.optical_depth();
@@ -207,7 +207,8 @@ RayIntegrator by_largest_value()
   {
     double begin = 0.0;
     double end = 0.0;
-    const double passes = ray.chord(begin, end) || std::abs(end - begin) < 1e-9 ? std::exp(-0.5 * ray.largest()) : 1.0;
+    const double passes =
+      ray.chord(begin, end) || std::abs(end - begin) < 1e-9 ? std::exp(-0.5 * ray.largest()) : 1.0;
     return Pixel{ passes, colour.x * (1.0 - passes) };
   };
   return one;
@@ -308,10 +309,10 @@ RayIntegrator by_paths(const std::string& name, Sends sends, double blue)
 /// How far a value is from what lies between the truth and `other`.
 double off(double value, double truth, double other)
 {
-  return std::isnan(truth)        ? 0.0
-    : !std::isfinite(value)       ? double(NAN)
-    : value < std::min(truth, other) ? std::min(truth, other) - value
-                                  : std::max(value - std::max(truth, other), 0.0);
+  return std::isnan(truth)                ? 0.0
+         : !std::isfinite(value)          ? double(NAN)
+         : value < std::min(truth, other) ? std::min(truth, other) - value
+                                          : std::max(value - std::max(truth, other), 0.0);
 }
 
 /// What a projection shows of a ray that only touches, by rounding: all or nothing.
@@ -342,8 +343,8 @@ void measure(brume_tests::HardCase& hard_case,
   if (one.random)
   {
     hard_case.measure(passes, 2e-6 * loosen, "of white", one.name);
-    // A hair of matter is hit by few paths or none, which tell no error: it is no less than by as many
-    // hits as are to be expected, and one.
+    // A hair of matter is hit by few paths or none, which tell no error: it is no less than by as
+    // many hits as are to be expected, and one.
     const double hit = -std::expm1(-ray.optical_depth());
     const double error = std::max(reads, glow * std::sqrt((hit + 1.0 / paths) / paths));
     hard_case.measure(sends / error, one.bound, "standard errors of 1024 paths", one.name);
@@ -357,8 +358,7 @@ void measure(brume_tests::HardCase& hard_case,
   if (one.reads_per_cell > 0.0)
   {
     const double cells = std::max(ray.crossings(), 1.0);
-    hard_case.measure(
-      reads / cells, one.reads_per_cell, "reads a cell on the way", one.name);
+    hard_case.measure(reads / cells, one.reads_per_cell, "reads a cell on the way", one.name);
   }
 }
 

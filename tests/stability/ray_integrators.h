@@ -37,12 +37,12 @@ struct RayIntegrator
 };
 
 /// All of them. Among them: the reference, fixed steps, the marcher by every rule, projections and
-/// surfaces, lit media with a sun behind the camera and glow, by shadow rays and light volumes, paths
-/// in packets and one by one.
+/// surfaces, lit media with a sun behind the camera and glow, by shadow rays and light volumes,
+/// paths in packets and one by one.
 const std::vector<RayIntegrator>& ray_integrators();
 
-/// Draws a ray with all of them, on all SIMD targets, and measures them. `loosen` multiplies the bounds:
-/// where the ray's own numbers are known no better.
+/// Draws a ray with all of them, on all SIMD targets, and measures them. `loosen` multiplies the
+/// bounds: where the ray's own numbers are known no better.
 void measure_ray(brume_tests::HardCase& hard_case, const RampRay& ray, double loosen = 1.0);
 
 }

@@ -51,12 +51,12 @@ struct RampRay
   glm::dmat4 world_from_data{ 1.0 };
   glm::dvec3 from{ 0.0 }; ///< index space: on the near plane
   glm::dvec3 to{ 0.0 };   ///< on the far plane
-  /// The optical depth that shadow rays may count beside their own: where the light comes along a face,
-  /// in single precision it may run in it. And light volumes, whose nodes are some way apart.
+  /// The optical depth that shadow rays may count beside their own: where the light comes along a
+  /// face, in single precision it may run in it. And light volumes, whose nodes are some way apart.
   double shade = 0.0;
   double shade_of_nodes = 0.0;
   double blur_of_nodes = 0.02; ///< of white: what their distance costs, a quarter of a voxel
-  std::string name;       ///< of the variant, for messages
+  std::string name;            ///< of the variant, for messages
 
   double at(const glm::dvec3& place) const { return density + glm::dot(slope, place); }
 
@@ -139,8 +139,7 @@ struct RampScene
     this->voxels = std::make_shared<Voxels<float>>(ray.dims.x + padding,
       ray.dims.y,
       ray.dims.z,
-      [&](int i, int j, int k)
-      { return ray.at(glm::dvec3(std::min(i, ray.dims.x - 1), j, k)); });
+      [&](int i, int j, int k) { return ray.at(glm::dvec3(std::min(i, ray.dims.x - 1), j, k)); });
     Volume& volume = this->scene.volumes[0];
     volume.grid = this->voxels->grid();
     volume.grid.padding_x = padding;

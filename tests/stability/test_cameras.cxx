@@ -1,4 +1,5 @@
-// Hard cases of cameras: on a face, inside, at a light, nearly flat or nearly all-round, planes far apart.
+// Hard cases of cameras: on a face, inside, at a light, nearly flat or nearly all-round, planes far
+// apart.
 #include "ray_integrators.h"
 
 #include "Transport/path_tracer.h"
@@ -56,7 +57,8 @@ struct BoxScene
       s0 = std::max(s0, std::min(low, high));
       s1 = std::min(s1, std::max(low, high));
     }
-    return s0 < s1 ? std::exp(-extinction * static_cast<double>(std::sqrt(square) * (s1 - s0))) : 1.0;
+    return s0 < s1 ? std::exp(-extinction * static_cast<double>(std::sqrt(square) * (s1 - s0)))
+                   : 1.0;
   }
 };
 
@@ -74,7 +76,8 @@ void measure_view(HardCase& hard_case, BoxScene& box, const View& view, double b
         const double passes = film.transmittance[0][static_cast<std::size_t>(y) * edge + x];
         const double most_passes = box.truth(view, x, y, -1e-9L);
         const double least_passes = box.truth(view, x, y, 1e-9L);
-        const double off = passes > least_passes ? std::max(passes - most_passes, 0.0) : least_passes - passes;
+        const double off =
+          passes > least_passes ? std::max(passes - most_passes, 0.0) : least_passes - passes;
         most = off <= most ? most : off;
       }
     }
@@ -125,11 +128,16 @@ TEST(Cameras, OnAFace)
     "a camera on a face, on an edge, at a corner of the box",
     "rays begin where the box does: to one side all of them miss, to the other none does",
     "the closed form of each pixel's chord, in a box known to 1e-9 voxels");
-  for (const glm::dvec3& eye : { glm::dvec3(4.0, 4.0, 8.0), glm::dvec3(0.0, 3.0, 4.5),
-         glm::dvec3(8.0, 8.0, 4.0), glm::dvec3(0.0, 0.0, 0.0), glm::dvec3(8.0, 0.0, 8.0) })
+  for (const glm::dvec3& eye : { glm::dvec3(4.0, 4.0, 8.0),
+         glm::dvec3(0.0, 3.0, 4.5),
+         glm::dvec3(8.0, 8.0, 4.0),
+         glm::dvec3(0.0, 0.0, 0.0),
+         glm::dvec3(8.0, 0.0, 8.0) })
   {
-    for (const glm::dvec3& forward : { glm::dvec3(0.0, 0.0, -1.0), glm::dvec3(1.0, 0.0, 0.0),
-           glm::dvec3(0.5, -0.3, 0.8), glm::dvec3(-1.0, -1.0, 0.25) })
+    for (const glm::dvec3& forward : { glm::dvec3(0.0, 0.0, -1.0),
+           glm::dvec3(1.0, 0.0, 0.0),
+           glm::dvec3(0.5, -0.3, 0.8),
+           glm::dvec3(-1.0, -1.0, 0.25) })
     {
       View view;
       view.forward = forward;
@@ -196,7 +204,8 @@ TEST(Cameras, PlanesFarApart)
   HardCase planes("Rays",
     "near and far planes apart by up to 1e12",
     "a place between them is a ratio of numbers that differ by as many digits",
-    "the closed form within 1e-5 of white up to a ratio of 1e9; 2e-3 at 1e12, which costs twelve of double's "
+    "the closed form within 1e-5 of white up to a ratio of 1e9; 2e-3 at 1e12, which costs twelve "
+    "of double's "
     "sixteen digits");
   for (const double ratio : { 1e3, 1e6, 1e9, 1e12 })
   {
@@ -216,7 +225,8 @@ TEST(Cameras, AtALight)
 {
   HardCase lamp("Rays",
     "a camera at a lamp, and rays through it",
-    "the distance to the lamp is 0 where the ray begins; there a lamp of 1/d² is brighter than anything, and "
+    "the distance to the lamp is 0 where the ray begins; there a lamp of 1/d² is brighter than "
+    "anything, and "
     "what is drawn by 1/d² of an even one is drawn in the wrong places",
     "finite, and the reference's light");
   for (int number = 0; number < 4; ++number)
@@ -309,7 +319,7 @@ TEST(Cameras, BrokenMatrices)
       view.far_plane = 60.0;
       Scene& scene = box.scene;
       scene.camera = view.camera(1.0);
-      (where == 0 ? scene.camera.clip_from_world
+      (where == 0    ? scene.camera.clip_from_world
         : where == 1 ? scene.volumes[0].data_from_index
                      : scene.volumes[0].world_from_data) *= m;
       scene.volumes[0].medium.lit = true;
@@ -326,7 +336,7 @@ TEST(Cameras, BrokenMatrices)
             for (std::size_t i = 0; i < film.size(); ++i)
             {
               sane = sane && film.transmittance[c][i] >= 0.0f && film.transmittance[c][i] <= 1.0f &&
-                std::isfinite(film.radiance[c][i]);
+                     std::isfinite(film.radiance[c][i]);
             }
           }
         }

@@ -1,14 +1,8 @@
-// What holds in every scene, tried in random ones.
-#include "hard_case.h"
-#include "property.h"
-#include "random_scene.h"
-#include "ray_truth.h"
+// What holds of light and steps in every scene: tried in random ones.
+#include "invariants.h"
 
 #include "Transport/path_tracer.h"
-#include "Transport/reference.h"
 #include "Transport/step_control.h"
-
-#include <glm/ext/matrix_transform.hpp>
 
 #include <gtest/gtest.h>
 
@@ -16,508 +10,14 @@
 #include <cmath>
 
 using namespace stability;
-using namespace brume_tests;
-
-namespace
-{
-
-constexpr int edge = 8; ///< pixels
-
-/// Undoes draw_target(), whatever a property threw.
-struct TargetGuard
-{
-  ~TargetGuard() { force_simd_target(""); }
-};
-
-/// Steps of a sixtieth of the picture's height.
-double step_of(const RandomScene& random)
-{
-  // Lengths are the data's, which for random scenes are the world's.
-  return random.view.half_height / 30.0;
-}
-
-MarchSettings settings_of(const RandomScene& random)
-{
-  MarchSettings settings;
-  settings.step = step_of(random);
-  settings.leave_error = 0.0;
-  settings.threads = 1;
-  settings.precise_shadows = true;
-  settings.shadow_step = 3.1416 * settings.step; // lattices of some thousand nodes
-  return settings;
-}
-
-ShadowMethod draw_shadows()
-{
-  return *rc::gen::element(ShadowMethod::Rays, ShadowMethod::Volume, ShadowMethod::Functions);
-}
-
-Film drawn(const Scene& scene, const MarchSettings& settings)
-{
-  Film film(edge, edge);
-  Marcher().render(scene, settings, film);
-  return film;
-}
-
-Film by_reference(const Scene& scene, double tolerance)
-{
-  Film film(edge, edge);
-  ReferenceSettings settings;
-  settings.tolerance = tolerance;
-  settings.threads = 1;
-  settings.most_pieces = 256;
-  render_reference(scene, settings, film);
-  return film;
-}
-
-/// What light of the brightest of a picture, or white, is.
-double brightest(const Film& film)
-{
-  double most = 1.0;
-  for (int c = 0; c < 3; ++c)
-  {
-    for (float v : film.radiance[c])
-    {
-      most = std::max(most, double(v));
-    }
-  }
-  return most;
-}
-
-double relative(const Film& a, const Film& b)
-{
-  return difference(a, b) / brightest(a);
-}
-
-/// What rounding may change, of white: 5e-5, and where matter is dense 1e-6 of the optical depth across, as
-/// places are single precision; where transfer functions are steep, 4e-7 of it for each of their nodes, as
-/// values are, too. By light volumes and functions of depth 2e-3 more: whether a node on a face of the box
-/// is within it is a matter of rounding.
-double rounding(const Scene& scene, ShadowMethod shadows = ShadowMethod::None)
-{
-  double worst = 0.0;
-  for (const Volume& volume : scene.volumes)
-  {
-    const bool density = volume.meaning == ValueMeaning::Density;
-    const std::vector<double>& opacity = volume.classification.opacity;
-    const double extinction = density
-      ? volume.density.extinction
-      : -std::log1p(-*std::max_element(opacity.begin(), opacity.end())) / volume.classification.unit_distance;
-    double across = 0.0;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      across += glm::length(glm::dvec3(volume.data_from_index[axis])) * volume.grid.dims[axis];
-    }
-    const double steps = density ? 0.0 : static_cast<double>(opacity.size() - 1);
-    worst = std::max(worst, extinction * across * (1e-6 + 4e-7 * steps));
-  }
-  const bool nodes = shadows == ShadowMethod::Volume || shadows == ShadowMethod::Functions;
-  return 5e-5 + worst + (nodes ? 2e-3 : 0.0);
-}
-
-/// The worst of a property's figures, for the page; NaN wins.
-struct Worst
-{
-  double value = 0.0;
-  double operator()(double next)
-  {
-    value = next <= value ? value : next;
-    return next;
-  }
-};
-
-/// Tells the page of a property: the figure, and in how many scenes it held.
-void tell(HardCase& hard_case,
-  int held,
-  const Worst& worst,
-  double bound,
-  const std::string& unit,
-  const std::string& by)
-{
-  hard_case.measure(worst.value, bound, unit, by);
-  for (int i = 0; i < held; ++i)
-  {
-    hard_case.holds(true, "random scenes", by);
-  }
-}
-
-/// All that has a place in the world, moved by a matrix; the view stays in the scene's own frame.
-void move_world(Scene& scene, const glm::dmat4& m, double lengths)
-{
-  for (Volume& volume : scene.volumes)
-  {
-    volume.data_from_index = m * volume.data_from_index;
-    volume.density.extinction /= lengths;
-    volume.classification.unit_distance *= lengths;
-  }
-  for (Light& light : scene.lights)
-  {
-    light.direction = glm::normalize(glm::dmat3(m) * light.direction);
-    light.position = glm::dvec3(m * glm::dvec4(light.position, 1.0));
-    light.attenuation.y /= lengths;
-    light.attenuation.z /= lengths * lengths;
-  }
-  scene.sky.up = glm::normalize(glm::dmat3(m) * scene.sky.up);
-  scene.camera.clip_from_world = scene.camera.clip_from_world * glm::inverse(m);
-  scene.camera.direction = glm::normalize(glm::dmat3(m) * scene.camera.direction);
-}
-
-SceneWishes lit_or_not(bool lit)
-{
-  SceneWishes wishes;
-  wishes.lit = lit;
-  wishes.volumes = 2;
-  return wishes;
-}
-
-constexpr int few = 60;
-
-}
-
-TEST(Invariants, Scale)
-{
-  HardCase scale("Invariants",
-    "scaling space by s and extinction by 1/s, s from 1e-6 to 1e6",
-    "any constant with the unit of a length, hidden in an epsilon, shows",
-    "changes no pixel by more than rounding does: 5e-5 of white, 1e-6 of the optical depth across, where transfer functions are steep 4e-7 of it a node; by light volumes 2e-3 more, as a node on a face is in or out by rounding");
-  for (const bool lit : { false, true })
-  {
-    Worst worst;
-    const int held = expect_property("scaled space",
-      few,
-      [&]()
-      {
-        const TargetGuard guard;
-        draw_target();
-        const RandomScene random = draw_scene(lit_or_not(lit));
-        MarchSettings settings = settings_of(random);
-        settings.shadows = draw_shadows();
-        const Film film = drawn(random.scene, settings);
-        const double s = std::pow(10.0, *rc::gen::inRange(-6, 7));
-        Scene scaled = random.scene;
-        move_world(scaled, glm::scale(glm::dmat4(1.0), glm::dvec3(s)), s);
-        settings.step *= s;
-        settings.shadow_step *= s;
-        RC_ASSERT(worst(relative(film, drawn(scaled, settings)) / rounding(random.scene, lit ? settings.shadows : ShadowMethod::None)) <= 1.0);
-      });
-    tell(scale, held, worst, 1.0, "of rounding", lit ? "lit march" : "march");
-  }
-}
-
-TEST(Invariants, Motion)
-{
-  HardCase motion("Invariants",
-    "turning and moving the world with all that is in it",
-    "an axis that is not treated like the others shows, and so does a place that is not relative",
-    "changes no pixel by more than rounding does: 5e-5 of white, 1e-6 of the optical depth across, where transfer functions are steep 4e-7 of it a node; by light volumes 2e-3 more, as a node on a face is in or out by rounding");
-  for (const bool lit : { false, true })
-  {
-    Worst worst;
-    const int held = expect_property("moved world",
-      few,
-      [&]()
-      {
-        const TargetGuard guard;
-        draw_target();
-        const RandomScene random = draw_scene(lit_or_not(lit));
-        MarchSettings settings = settings_of(random);
-        settings.shadows = draw_shadows();
-        const Film film = drawn(random.scene, settings);
-        const glm::dvec3 axis(*rc::gen::inRange(1, 9), *rc::gen::inRange(-8, 9), *rc::gen::inRange(-8, 9));
-        const double angle = *rc::gen::inRange(0, 628) * 0.01;
-        const double away = *rc::gen::element(0.0, 1.0, 1e3, 1e5) * random.view.half_height;
-        const glm::dmat4 m = glm::rotate(
-          glm::translate(glm::dmat4(1.0), glm::normalize(axis) * away), angle, glm::normalize(axis));
-        Scene moved = random.scene;
-        move_world(moved, m, 1.0);
-        RC_ASSERT(worst(relative(film, drawn(moved, settings)) / rounding(random.scene, lit ? settings.shadows : ShadowMethod::None)) <= 1.0);
-      });
-    tell(motion, held, worst, 1.0, "of rounding", lit ? "lit march" : "march");
-  }
-}
-
-namespace
-{
-
-/// The same matter, its axes in the order y, z, x.
-RandomScene turned_axes(const RandomScene& random)
-{
-  RandomScene turned = random;
-  turned.voxels.clear();
-  for (Volume& volume : turned.scene.volumes)
-  {
-    const Grid old = volume.grid;
-    const float* from = static_cast<const float*>(old.voxels);
-    auto values = std::make_shared<std::vector<float>>(old.voxel_count());
-    const int n[3] = { old.dims[1], old.dims[2], old.dims[0] };
-    for (int k = 0; k < n[2]; ++k)
-    {
-      for (int j = 0; j < n[1]; ++j)
-      {
-        for (int i = 0; i < n[0]; ++i)
-        {
-          (*values)[(static_cast<std::size_t>(k) * n[1] + j) * n[0] + i] =
-            from[(static_cast<std::size_t>(j) * old.dims[1] + i) * old.dims[0] + k];
-        }
-      }
-    }
-    std::copy(n, n + 3, volume.grid.dims);
-    volume.grid.voxels = values->data();
-    turned.voxels.push_back(values);
-    const glm::dmat4 m = volume.data_from_index;
-    volume.data_from_index[0] = m[1];
-    volume.data_from_index[1] = m[2];
-    volume.data_from_index[2] = m[0];
-  }
-  return turned;
-}
-
-}
-
-TEST(Invariants, Axes)
-{
-  HardCase axes("Invariants",
-    "the grid's axes in another order, the same matter in the same place",
-    "x is read by pairs, bricks and tables go by rows: an index that is taken for another shows",
-    "changes no pixel by more than rounding does: 5e-5 of white, 1e-6 of the optical depth across, where transfer functions are steep 4e-7 of it a node; by light volumes 2e-3 more, as a node on a face is in or out by rounding");
-  for (const bool lit : { false, true })
-  {
-    Worst worst;
-    const int held = expect_property("turned axes",
-      few,
-      [&]()
-      {
-        const TargetGuard guard;
-        draw_target();
-        const RandomScene random = draw_scene(lit_or_not(lit));
-        MarchSettings settings = settings_of(random);
-        settings.shadows = lit ? ShadowMethod::Rays : ShadowMethod::None; // lattices follow the grid's axes
-        const RandomScene turned = turned_axes(random);
-        const double off = relative(drawn(random.scene, settings), drawn(turned.scene, settings));
-        RC_ASSERT(worst(off / rounding(random.scene)) <= 1.0);
-      });
-    tell(axes, held, worst, 1.0, "of rounding", lit ? "lit march" : "march");
-  }
-}
-
-TEST(Invariants, EmptyVolume)
-{
-  HardCase empty("Invariants",
-    "an empty volume more",
-    "other kernels draw it, rays are cut where it begins and ends, and its colour or its 0/0 could leak",
-    "in the same box: no pixel changes by more than rounding does (5e-5 of white and 1e-6 of the depth across); in any other box the truth does not change "
-    "by more than ten of its tolerances of 1e-4: it goes by halvings, which tell less where transfer functions "
-    "have corners");
-  for (const bool lit : { false, true })
-  {
-    Worst worst;
-    Worst worst_truth;
-    const int held = expect_property("an empty volume more",
-      few,
-      [&]()
-      {
-        const TargetGuard guard;
-        draw_target();
-        SceneWishes wishes = lit_or_not(lit);
-        wishes.volumes = 1;
-        const RandomScene random = draw_scene(wishes);
-        Scene more = random.scene;
-        more.volumes.push_back(more.volumes[0]);
-        Volume& added = more.volumes.back();
-        std::vector<float> nothing(added.grid.voxel_count(), 0.0f);
-        const int kind = *rc::gen::inRange(0, 4);
-        if (kind == 0)
-        {
-          added.weight = 0.0;
-        }
-        else if (added.meaning == ValueMeaning::Density)
-        {
-          kind == 1 ? static_cast<void>(added.density.extinction = 0.0)
-                    : static_cast<void>(added.grid.voxels = nothing.data());
-        }
-        else
-        {
-          std::fill(added.classification.opacity.begin(), added.classification.opacity.end(), 0.0);
-        }
-        if (kind == 3)
-        {
-          std::swap(more.volumes[0], more.volumes[1]);
-        }
-        MarchSettings settings = settings_of(random);
-        // Shadow rays of one trilinear density go cell by cell, those of two by steps: the same steps.
-        settings.shadows = lit ? ShadowMethod::None : settings.shadows;
-        const double off = relative(drawn(random.scene, settings), drawn(more, settings));
-        RC_ASSERT(worst(off / rounding(random.scene)) <= 1.0);
-        if (!lit)
-        {
-          added.data_from_index = glm::translate(glm::dmat4(1.0),
-            glm::dvec3(0.3, -0.2, 0.4) * random.view.half_height) * added.data_from_index;
-          const Film truth = by_reference(random.scene, 1e-4);
-          if (kind != 3)
-          {
-            const Film other = by_reference(more, 1e-4);
-            double unsettled = 0.0; // rays that reached the shortest pieces tell so
-            for (std::size_t i = 0; i < truth.size(); ++i)
-            {
-              unsettled = std::max({ unsettled, double(truth.error[i]), double(other.error[i]) });
-            }
-            RC_ASSERT(worst_truth(relative(truth, other) / (1e-3 + unsettled)) <= 1.0);
-          }
-        }
-      });
-    tell(empty, held, worst, 1.0, "of rounding", lit ? "lit march" : "march");
-    if (!lit)
-    {
-      empty.measure(worst_truth.value, 1.0, "of what the truth's tolerance allows", "reference");
-    }
-  }
-}
-
-namespace
-{
-
-/// The first volume cut in two at a plane of voxels, which both have.
-RandomScene split(const RandomScene& random, int plane)
-{
-  RandomScene result = random;
-  const Volume whole = random.scene.volumes[0];
-  const int* n = whole.grid.dims;
-  const float* from = static_cast<const float*>(whole.grid.voxels);
-  result.scene.volumes.clear();
-  for (const int part : { 0, 1 })
-  {
-    const int first = part == 0 ? 0 : plane;
-    const int last = part == 0 ? plane : n[0] - 1;
-    auto values = std::make_shared<std::vector<float>>();
-    for (int row = 0; row < n[1] * n[2]; ++row)
-    {
-      values->insert(values->end(), from + row * n[0] + first, from + row * n[0] + last + 1);
-    }
-    Volume half = whole;
-    half.grid.voxels = values->data();
-    half.grid.dims[0] = last - first + 1;
-    half.data_from_index = glm::translate(whole.data_from_index, glm::dvec3(first, 0.0, 0.0));
-    result.voxels.push_back(values);
-    result.scene.volumes.push_back(half);
-  }
-  return result;
-}
-
-}
-
-TEST(Invariants, SplitVolume)
-{
-  HardCase halves("Invariants",
-    "a volume split in two at a plane of voxels",
-    "a ray leaves one box where it enters the other: what lies in neither is a seam, what lies in both is "
-    "drawn twice",
-    "the truth changes by no more than ten of its tolerances of 1e-4; the march by no more than halving its step "
-    "does, five times, and 2e-4; light that comes through the seam likewise");
-  for (const bool lit : { false, true })
-  {
-    Worst worst;
-    Worst worst_truth;
-    const int held = expect_property("split volumes",
-      few,
-      [&]()
-      {
-        const TargetGuard guard;
-        draw_target();
-        SceneWishes wishes = lit_or_not(lit);
-        wishes.volumes = 1;
-        RandomScene random = draw_scene(wishes);
-        Volume& volume = random.scene.volumes[0];
-        volume.grid.cell_centred = false;
-        RC_PRE(volume.grid.dims[0] >= 3);
-        const RandomScene two = split(random, *rc::gen::inRange(1, volume.grid.dims[0] - 1));
-        MarchSettings settings = settings_of(random);
-        settings.shadows = ShadowMethod::Rays;
-        settings.shadow_step = 0.5 * settings.step;
-        settings.step *= 0.5;
-        const Film film = drawn(random.scene, settings);
-        const Film other = drawn(two.scene, settings);
-        settings.step *= 0.5;
-        settings.shadow_step *= 0.5;
-        const double halved = std::max(
-          relative(film, drawn(random.scene, settings)), relative(other, drawn(two.scene, settings)));
-        RC_ASSERT(worst(relative(film, other) / (5.0 * halved + 2e-4)) <= 1.0);
-        if (!lit)
-        {
-          const double off = relative(by_reference(random.scene, 1e-4), by_reference(two.scene, 1e-4));
-          RC_ASSERT(worst_truth(off) <= 1e-3);
-        }
-      });
-    tell(halves, held, worst, 1.0, "of what steps allow", lit ? "lit march" : "march");
-    if (!lit)
-    {
-      halves.measure(worst_truth.value, 1e-3, "of white, of the truth", "reference");
-    }
-  }
-}
-
-TEST(Invariants, Transmittance)
-{
-  HardCase product("Invariants",
-    "the transmittance of a way is that of its parts, multiplied",
-    "parts begin and end anywhere in steps and cells, of optical depths from 1e-6 to far beyond what passes",
-    "T = T₁ · T₂ within rounding (5e-5 of white and 1e-6 of the depth across) for densities cell by cell; within "
-    "1e-3 for the truth's three pictures, each of a tolerance of 1e-4");
-  Worst worst;
-  Worst worst_truth;
-  const int held = expect_property("transmittance is multiplicative",
-    few,
-    [&]()
-    {
-      const TargetGuard guard;
-      draw_target();
-      SceneWishes wishes;
-      const bool exact = *rc::gen::arbitrary<bool>();
-      wishes.classified = !exact;
-      RandomScene random = draw_scene(wishes);
-      random.scene.volumes[0].density.channels = glm::dvec3(1.0); // coloured, it would go by steps
-      const double part = *rc::gen::inRange(1, 1000) * 1e-3;
-      const auto between = [&](double from, double to)
-      {
-        View view = random.view;
-        const double length = view.far_plane - view.near_plane;
-        view.far_plane = view.near_plane + to * length;
-        view.near_plane = view.near_plane + from * length;
-        Scene scene = random.scene;
-        scene.camera = view.camera(1.0);
-        if (!exact)
-        {
-          return by_reference(scene, 1e-4);
-        }
-        MarchSettings settings = settings_of(random);
-        settings.rule = StepRule::Cells;
-        return drawn(scene, settings);
-      };
-      const Film whole = between(0.0, 1.0);
-      const Film first = between(0.0, part);
-      const Film second = between(part, 1.0);
-      double most = 0.0;
-      for (int c = 0; c < 3; ++c)
-      {
-        for (std::size_t i = 0; i < whole.size(); ++i)
-        {
-          const double off = std::abs(
-            double(whole.transmittance[c][i]) - double(first.transmittance[c][i]) * second.transmittance[c][i]);
-          most = off <= most ? most : off;
-        }
-      }
-      const bool holds = exact ? worst(most / rounding(random.scene)) <= 1.0 : worst_truth(most) <= 1e-3;
-      RC_ASSERT(holds);
-    });
-  tell(product, held, worst, 1.0, "of rounding", "cells");
-  product.measure(worst_truth.value, 1e-3, "of white, of the truth", "reference");
-}
 
 TEST(Invariants, LinearInLights)
 {
   HardCase linear("Invariants",
     "radiance is linear in the lights",
     "a clamp, a light that is left out or one that is counted twice shows",
-    "all lights together are the sum of each alone within 2e-5 of the brightest; paths of four times the light "
+    "all lights together are the sum of each alone within 2e-5 of the brightest; paths of four "
+    "times the light "
     "are four times the paths");
   Worst worst;
   Worst worst_paths;
@@ -600,9 +100,11 @@ TEST(Invariants, Reciprocity)
 {
   HardCase swap("Invariants",
     "sun and view change places, single scattering in random layers",
-    "cos θ, a sign or a direction that is turned round shows; so does light that is dimmed on one of its two "
+    "cos θ, a sign or a direction that is turned round shows; so does light that is dimmed on one "
+    "of its two "
     "ways only",
-    "L cos θ of the view is the same within 2e-3, which is what a hundred steps leave, by shadow rays of each target "
+    "L cos θ of the view is the same within 2e-3, which is what a hundred steps leave, by shadow "
+    "rays of each target "
     "and by paths in five of their standard errors");
   Worst worst;
   Worst worst_paths;
@@ -625,8 +127,8 @@ TEST(Invariants, Reciprocity)
       volume.grid.dims[0] = volume.grid.dims[1] = 3;
       volume.grid.dims[2] = layers;
       const double high = layers - 1.0;
-      volume.data_from_index =
-        placed(glm::dvec3(100.0 * high, 100.0 * high, 1.0), glm::dvec3(-100.0 * high, -100.0 * high, 0.0));
+      volume.data_from_index = placed(
+        glm::dvec3(100.0 * high, 100.0 * high, 1.0), glm::dvec3(-100.0 * high, -100.0 * high, 0.0));
       volume.meaning = ValueMeaning::Density;
       volume.density.extinction = *rc::gen::element(0.01, 0.3, 1.0, 3.0) / high;
       volume.medium.lit = true;
@@ -700,11 +202,11 @@ double largest_of(const Medium& medium)
     const double g = std::abs(lobe.anisotropy);
     const double k = std::min(1.55 * g - 0.55 * g * g * g + 0.05, 0.999);
     weights += lobe.weight;
-    sum += lobe.weight *
-      (lobe.function == PhaseFunction::Isotropic    ? 1.0
-          : lobe.function == PhaseFunction::Rayleigh ? 1.5
-          : lobe.function == PhaseFunction::Schlick ? (1.0 + k) / (1.0 - k)
-                                                    : (1.0 + g) / ((1.0 - g) * (1.0 - g)));
+    sum += lobe.weight * (lobe.function == PhaseFunction::Isotropic   ? 1.0
+                           : lobe.function == PhaseFunction::Rayleigh ? 1.5
+                           : lobe.function == PhaseFunction::Schlick
+                             ? (1.0 + k) / (1.0 - k)
+                             : (1.0 + g) / ((1.0 - g) * (1.0 - g)));
   }
   return sum / weights / (4.0 * pi);
 }
@@ -732,7 +234,8 @@ double beyond(const Film& film, const glm::dvec3& most_sent)
 TEST(Invariants, SaneUnlit)
 {
   HardCase sane("Invariants",
-    "no pixel is negative, not finite or brighter than its matter: emission and absorption, projections",
+    "no pixel is negative, not finite or brighter than its matter: emission and absorption, "
+    "projections",
     "a quadrature that overshoots, a table read beyond its end, 1 − T of a T that is not the sum's",
     "0 ≤ T ≤ 1 and 0 ≤ L ≤ the brightest colour · (1 − T), but for 1e-5");
   Worst worst;
@@ -749,10 +252,15 @@ TEST(Invariants, SaneUnlit)
         [](const Volume& v) { return v.meaning == ValueMeaning::Classified; });
       if (classified && scene.volumes.size() == 1)
       {
-        scene.blend_mode = *rc::gen::element(BlendMode::Composite, BlendMode::Composite,
-          BlendMode::MaximumIntensity, BlendMode::MinimumIntensity, BlendMode::Isosurface, BlendMode::Slice);
+        scene.blend_mode = *rc::gen::element(BlendMode::Composite,
+          BlendMode::Composite,
+          BlendMode::MaximumIntensity,
+          BlendMode::MinimumIntensity,
+          BlendMode::Isosurface,
+          BlendMode::Slice);
         scene.isosurfaces = { 0.3, 0.6 };
-        scene.slice = glm::dvec4(random.view.forward, -glm::dot(random.view.forward, random.view.centre));
+        scene.slice =
+          glm::dvec4(random.view.forward, -glm::dot(random.view.forward, random.view.centre));
       }
       glm::dvec3 most(0.0);
       for (const Volume& volume : scene.volumes)
@@ -778,7 +286,8 @@ TEST(Invariants, SaneLit)
   HardCase sane("Invariants",
     "no pixel is negative, not finite or beyond what the lights can give: lit media",
     "shadows that amplify, phase functions beyond their largest value, cosines beyond 1",
-    "0 ≤ T ≤ 1 and 0 ≤ L ≤ albedo · (E · largest phase + sky) · (1 − T), but for 2e-5; paths never negative, "
+    "0 ≤ T ≤ 1 and 0 ≤ L ≤ albedo · (E · largest phase + sky) · (1 − T), but for 2e-5; paths never "
+    "negative, "
     "always finite");
   Worst worst;
   bool finite = true;
@@ -806,8 +315,8 @@ TEST(Invariants, SaneLit)
         }
       }
       MarchSettings settings = settings_of(random);
-      settings.shadows =
-        *rc::gen::element(ShadowMethod::None, ShadowMethod::Rays, ShadowMethod::Volume, ShadowMethod::Functions);
+      settings.shadows = *rc::gen::element(
+        ShadowMethod::None, ShadowMethod::Rays, ShadowMethod::Volume, ShadowMethod::Functions);
       settings.precise_shadows = *rc::gen::arbitrary<bool>();
       settings.step *= *rc::gen::element(0.5, 1.0, 10.0, 1000.0);
       settings.jitter = *rc::gen::arbitrary<bool>();
@@ -823,7 +332,7 @@ TEST(Invariants, SaneLit)
         {
           const double v = film.radiance[c][i];
           finite = finite && v >= 0.0 && std::isfinite(v) && film.transmittance[c][i] >= 0.0f &&
-            film.transmittance[c][i] <= 1.0f;
+                   film.transmittance[c][i] <= 1.0f;
         }
       }
       RC_ASSERT(finite);
@@ -836,7 +345,8 @@ TEST(Invariants, Furnace)
 {
   HardCase furnace("Invariants",
     "white matter in even light from all around cannot be seen",
-    "each scattering keeps the light: a fault of a thousandth in weights, roulette or tracking adds up to "
+    "each scattering keeps the light: a fault of a thousandth in weights, roulette or tracking "
+    "adds up to "
     "the number of scatterings",
     "L + T = 1 in the mean of each picture within five standard errors");
   Worst worst;
@@ -865,8 +375,8 @@ TEST(Invariants, Furnace)
       double noise = 0.0;
       for (std::size_t i = 0; i < film.size(); ++i)
       {
-        // A grey pixel's path is 0 or 1 here, so that its noise is that of the chance to pass; coloured
-        // ones tell theirs.
+        // A grey pixel's path is 0 or 1 here, so that its noise is that of the chance to pass;
+        // coloured ones tell theirs.
         const double t = film.transmittance[1][i];
         off += film.radiance[1][i] + t - 1.0;
         noise += std::max(t * (1.0 - t) / 8.0, film.error[i] * film.error[i] / 9.0);
@@ -880,7 +390,8 @@ TEST(Invariants, LeavingEarly)
 {
   HardCase early("Invariants",
     "rays that are left when little more can come, and bricks that are leapt over",
-    "what is behind may be brighter than what is in front; a brick may be visible in a corner alone",
+    "what is behind may be brighter than what is in front; a brick may be visible in a corner "
+    "alone",
     "leaving changes no pixel by more than was allowed; leaping by no more than rounding does");
   for (const bool lit : { false, true })
   {
@@ -901,10 +412,12 @@ TEST(Invariants, LeavingEarly)
         RC_ASSERT(worst(difference(all, drawn(random.scene, settings)) / (allowed + 1e-5)) <= 1.0);
         settings.leave_error = 0.0;
         settings.leaping = false;
-        RC_ASSERT(worst_leap(relative(all, drawn(random.scene, settings)) / rounding(random.scene)) <= 1.0);
+        RC_ASSERT(
+          worst_leap(relative(all, drawn(random.scene, settings)) / rounding(random.scene)) <= 1.0);
       });
     tell(early, held, worst, 1.0, "of what was allowed", lit ? "lit march" : "march");
-    early.measure(worst_leap.value, 1.0, "of rounding between leaps and none", lit ? "lit march" : "march");
+    early.measure(
+      worst_leap.value, 1.0, "of rounding between leaps and none", lit ? "lit march" : "march");
   }
 }
 
@@ -912,9 +425,12 @@ TEST(Invariants, HalvedStep)
 {
   HardCase halved("Invariants",
     "halving the step that was chosen for a tolerance of 1e-2 or 1e-3",
-    "the choice has looked at other rays than the picture's, and transfer functions may jump anywhere",
-    "changes no pixel by more than the error that was stated and half of it, where a choice from 1024 rays says "
-    "that it is met: a quarter is the error of the halved steps, the rest what those rays have not seen");
+    "the choice has looked at other rays than the picture's, and transfer functions may jump "
+    "anywhere",
+    "changes no pixel by more than the error that was stated and half of it, where a choice from "
+    "1024 rays says "
+    "that it is met: a quarter is the error of the halved steps, the rest what those rays have not "
+    "seen");
   for (const bool lit : { false, true })
   {
     Worst worst;
@@ -929,7 +445,8 @@ TEST(Invariants, HalvedStep)
         Marcher marcher;
         MarchSettings settings = settings_of(random);
         settings.shadows = lit ? ShadowMethod::Volume : ShadowMethod::None;
-        const StepChoice choice = choose_step(marcher, random.scene, tolerance, 1, settings, 0.0, 32);
+        const StepChoice choice =
+          choose_step(marcher, random.scene, tolerance, 1, settings, 0.0, 32);
         settings.rule = choice.rule;
         settings.step = choice.step;
         settings.refinements = choice.refinements;

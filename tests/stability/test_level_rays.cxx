@@ -1,4 +1,5 @@
-// Hard cases of single rays: along axes, faces, edges and corners, grazing, touching, hardly moving.
+// Hard cases of single rays: along axes, faces, edges and corners, grazing, touching, hardly
+// moving.
 #include "ray_integrators.h"
 
 #include "Transport/reference.h"
@@ -49,7 +50,8 @@ TEST(LevelRays, ParallelToAnAxis)
 {
   HardCase axis("Rays",
     "parallel to an axis",
-    "two of three slab tests divide by 0, and a walk from cell to cell never crosses two of three kinds of "
+    "two of three slab tests divide by 0, and a walk from cell to cell never crosses two of three "
+    "kinds of "
     "planes",
     "the closed form, and no cell is read more often than any other");
   along_axes(ramp(), { 0.3, 0.7 }, [&](const RampRay& ray) { measure_ray(axis, ray); });
@@ -150,14 +152,16 @@ TEST(LevelRays, Grazing)
   HardCase grazing("Rays",
     "grazing a face at a slope of 1e-2 to 1e-15",
     "where the ray crosses the face is the ratio of two small numbers",
-    "the closed form of the chord; light that comes along within 1e-5 voxels of the face, or of half a node of a light volume, may have come in it");
+    "the closed form of the chord; light that comes along within 1e-5 voxels of the face, or of "
+    "half a node of a light volume, may have come in it");
   for (double slope = 1e-2; slope > 1e-16; slope *= 0.03)
   {
     for (const bool in : { true, false })
     {
       RampRay ray = ramp();
       ray.blur_of_nodes = 0.1; // they know of the face by a node on either side
-      ray.name = (in ? "from the face in, " : "from within out, ") + std::to_string(slope * 1e9) + "e-9";
+      ray.name =
+        (in ? "from the face in, " : "from within out, ") + std::to_string(slope * 1e9) + "e-9";
       // Through (4, 0, ·) of the face y = 0: half of the way is outside.
       ray.from = { -12.0, (in ? -16.0 : 16.0) * slope, 4.25 };
       ray.to = { 20.0, (in ? 16.0 : -16.0) * slope, 4.25 };
@@ -179,7 +183,8 @@ TEST(LevelRays, BesideAPlane)
 {
   HardCase beside("Rays",
     "beside a plane of voxels, from 1e-3 to 1e-16 of a voxel away, and at such slopes across it",
-    "in single precision the ray is in the plane; it may take one side or the other from cell to cell",
+    "in single precision the ray is in the plane; it may take one side or the other from cell to "
+    "cell",
     "the closed form, and no cell is read more often than any other");
   for (double away = 1e-3; away > 1e-17; away *= 0.01)
   {
@@ -306,7 +311,8 @@ TEST(LevelRays, BetweenNearestVoxels)
         Marcher marcher;
         const MarchStatistics statistics = marcher.render(scene.scene, settings, film);
         see(film, step_rule_name(rule));
-        between.measure(static_cast<double>(statistics.samples), 40.0, "reads", step_rule_name(rule));
+        between.measure(
+          static_cast<double>(statistics.samples), 40.0, "reads", step_rule_name(rule));
       }
       force_simd_target("");
     }

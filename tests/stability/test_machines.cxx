@@ -1,4 +1,5 @@
-// Hard cases of machines: threads, instruction sets, two pictures at once, pictures that are cancelled.
+// Hard cases of machines: threads, instruction sets, two pictures at once, pictures that are
+// cancelled.
 #include "artists.h"
 #include "hard_case.h"
 
@@ -49,7 +50,8 @@ TEST(Machines, EveryInstructionSet)
   HardCase sets("Machines",
     "every SIMD target that the machine has, from one lane to sixteen",
     "fused multiply-adds, other approximations of 1/x and other sums round differently",
-    "within 1e-5 of white of one another (1e-4 where powers, cosines and 16 bits magnify it, 2e-3 where an "
+    "within 1e-5 of white of one another (1e-4 where powers, cosines and 16 bits magnify it, 2e-3 "
+    "where an "
     "estimate decides), and all as near to double precision; paths within their noise");
   for (const Artist& artist : artists())
   {
@@ -73,7 +75,8 @@ TEST(Machines, EveryInstructionSet)
       }
       if (artist.apart > 0.0)
       {
-        sets.measure(difference(first, film) / artist.apart, 1.0, "of what they may be apart", artist.name);
+        sets.measure(
+          difference(first, film) / artist.apart, 1.0, "of what they may be apart", artist.name);
         sets.measure(difference(film, truth) / artist.error,
           1.0,
           "of the error against double precision that the step allows",
@@ -85,9 +88,11 @@ TEST(Machines, EveryInstructionSet)
       for (std::size_t i = 0; i < film.size(); ++i)
       {
         apart += film.radiance[1][i] - first.radiance[1][i];
-        noise += (double(film.error[i]) * film.error[i] + double(first.error[i]) * first.error[i]) / 9.0;
+        noise +=
+          (double(film.error[i]) * film.error[i] + double(first.error[i]) * first.error[i]) / 9.0;
       }
-      sets.measure(std::abs(apart) / std::sqrt(noise), 4.5, "standard errors of the mean", artist.name);
+      sets.measure(
+        std::abs(apart) / std::sqrt(noise), 4.5, "standard errors of the mean", artist.name);
     }
     force_simd_target("");
   }

@@ -52,7 +52,8 @@ TEST(Mappers, AtOnce)
 {
   HardCase at_once("Machines",
     "two mappers that draw two scenes in two threads, march and paths",
-    "VTK's own objects are not for two threads; anything static in a mapper would be written by both",
+    "VTK's own objects are not for two threads; anything static in a mapper would be written by "
+    "both",
     "the same bits as alone");
   for (int turn = 0; turn < 3; ++turn)
   {
@@ -123,7 +124,8 @@ TEST(Mappers, Cancelled)
 {
   HardCase cancelled("Machines",
     "a mapper that is cancelled from its progress event",
-    "the user turns the view while it draws: what it keeps between pictures must not be half of one",
+    "the user turns the view while it draws: what it keeps between pictures must not be half of "
+    "one",
     "the next picture is the same bits as a new mapper's");
   cancel<vtkBrumeRayMarchMapper>(cancelled, "vtkBrumeRayMarchMapper");
   cancel<vtkBrumePathTraceMapper>(cancelled, "vtkBrumePathTraceMapper");

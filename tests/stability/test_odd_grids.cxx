@@ -1,5 +1,5 @@
-// Hard cases of grids and their places: thin ones, tiny and huge spacing, sheared and mirrored matrices,
-// far origins.
+// Hard cases of grids and their places: thin ones, tiny and huge spacing, sheared and mirrored
+// matrices, far origins.
 #include "ray_integrators.h"
 
 #include "Transport/path_tracer.h"
@@ -133,7 +133,8 @@ TEST(OddGrids, UnevenSpacing)
       RampRay ray = ramp();
       ray.data_from_index[axis][axis] = stretch;
       set_extinction(ray);
-      ray.blur_of_nodes = 0.25; // nodes are as far apart along all axes as voxels are along the longest
+      ray.blur_of_nodes =
+        0.25; // nodes are as far apart along all axes as voxels are along the longest
       through_box(ray, 4, [&](const RampRay& one) { measure_ray(uneven, one, 2.0); });
     }
   }
@@ -154,14 +155,17 @@ TEST(OddGrids, ShearedAndMirrored)
     {
       for (int row = 0; row < 3; ++row)
       {
-        ray.data_from_index[column][row] = (column == row ? (i >> column & 1 ? -1.0 : 1.0) : any(random));
+        ray.data_from_index[column][row] =
+          (column == row ? (i >> column & 1 ? -1.0 : 1.0) : any(random));
         // Lit media measure angles in the world: there the matrix of the prop only turns and moves.
         ray.world_from_data[column][row] = 0.0;
       }
     }
     const double turn = 3.0 * any(random);
-    ray.world_from_data = glm::rotate(
-      placed(glm::dvec3(i % 2 ? -1.0 : 1.0, 1.0, 1.0), glm::dvec3(5.0, -7.0, 2.0)), turn, glm::dvec3(1, 2, 3));
+    ray.world_from_data =
+      glm::rotate(placed(glm::dvec3(i % 2 ? -1.0 : 1.0, 1.0, 1.0), glm::dvec3(5.0, -7.0, 2.0)),
+        turn,
+        glm::dvec3(1, 2, 3));
     set_extinction(ray);
     through_box(ray, 1, [&](const RampRay& one) { measure_ray(sheared, one, 2.0); });
   }
@@ -170,12 +174,14 @@ TEST(OddGrids, ShearedAndMirrored)
 namespace
 {
 
-/// A scene of bumps in lit matter whose world is moved by `away`, scaled in its extents; all that has a
-/// place goes along.
+/// A scene of bumps in lit matter whose world is moved by `away`, scaled in its extents; all that
+/// has a place goes along.
 struct FarScene
 {
-  Voxels<float> voxels{ 17, 15, 19, [](int i, int j, int k)
-    { return 1.0 + std::sin(0.7 * i) * std::sin(0.6 * j + 1.0) * std::cos(0.5 * k); } };
+  Voxels<float> voxels{ 17, 15, 19, [](int i, int j, int k) {
+                         return 1.0 +
+                                std::sin(0.7 * i) * std::sin(0.6 * j + 1.0) * std::cos(0.5 * k);
+                       } };
   Scene scene;
 
   explicit FarScene(const glm::dvec3& away, double edge = 1.0)
@@ -206,7 +212,8 @@ TEST(OddGrids, FarOrigins)
 {
   HardCase far("Rays",
     "origins 1e7 extents away",
-    "the matrix holds two numbers that differ by seven digits more than the picture shows; single precision "
+    "the matrix holds two numbers that differ by seven digits more than the picture shows; single "
+    "precision "
     "would see one voxel",
     "all is moved together, and the picture stays within 2e-5 of white; paths within their noise");
   const FarScene near(glm::dvec3(0.0));

@@ -1,4 +1,5 @@
-// Memory that runs out at any allocation: nothing is half made, and the next picture is the right one.
+// Memory that runs out at any allocation: nothing is half made, and the next picture is the right
+// one.
 #include "artists.h"
 #include "hard_case.h"
 
@@ -21,7 +22,7 @@ using brume_tests::HardCase;
 namespace
 {
 
-std::atomic<long> left_to_fail{ -1 };        ///< allocations until one fails; below 0: none does
+std::atomic<long> left_to_fail{ -1 };         ///< allocations until one fails; below 0: none does
 std::atomic<std::size_t> largest{ SIZE_MAX }; ///< what is larger fails
 std::atomic<long> counted{ 0 };
 
@@ -31,9 +32,9 @@ void* allocate(std::size_t bytes, std::size_t alignment)
   const bool fails =
     bytes > largest || (left_to_fail.load() >= 0 && left_to_fail.fetch_sub(1) == 0);
   void* memory = fails ? nullptr
-    : alignment > alignof(std::max_align_t)
-    ? std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment)
-    : std::malloc(bytes ? bytes : 1);
+                 : alignment > alignof(std::max_align_t)
+                   ? std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment)
+                   : std::malloc(bytes ? bytes : 1);
   if (!memory)
   {
     throw std::bad_alloc();
@@ -200,7 +201,8 @@ TEST(OutOfMemory, Mappers)
   HardCase memory("Machines",
     "memory for nothing larger than 1 MB to 4 kB, in a mapper",
     "VTK's pipeline knows no exceptions: one that leaves a mapper ends the program",
-    "an error that says so, and the next picture by the same mapper is the same bits as a new one's");
+    "an error that says so, and the next picture by the same mapper is the same bits as a new "
+    "one's");
   starve<vtkBrumeRayMarchMapper>(memory, "vtkBrumeRayMarchMapper");
   starve<vtkBrumePathTraceMapper>(memory, "vtkBrumePathTraceMapper");
 }
