@@ -29,7 +29,8 @@ struct ChoiceSettings
   /// Steps are chosen by the tolerance in place of `step`.
   bool choose_step = true;
   double step = 1.0;
-  /// The share of pixels that may have larger errors than the tolerance by their steps (choose_step).
+  /// The share of pixels that may have larger errors than the tolerance by their steps
+  /// (choose_step).
   double beyond = 0.0;
   int step_edge = 64; ///< rays along each side of the square that tells them
   bool jitter = false;
@@ -65,6 +66,8 @@ public:
   /// The largest error of a pixel that is expected, for all that was chosen by the tolerance, and
   /// whether each is within its part.
   double GetEstimatedError() const;
+  /// The part of that which is the steps'.
+  double GetStepError() const { return this->Step.estimated_error; }
   bool IsToleranceMet() const;
 
 private:

@@ -109,13 +109,56 @@ void vtkBrumeSmartVolumeMapper::March(Picture& picture)
   const brume::Scene& scene = choices.GetScene();
   const brume::MarchSettings& settings = choices.GetSettings();
 
-  picture.Predicted = brume::seconds_of_march(
-    this->Internal->Marcher, scene, settings, picture.Film.width, picture.Film.height);
-  const double before = picture.Passed();
-  const brume::MarchStatistics march = this->Internal->Marcher.render(scene,
+  const double others =
+    choices.GetEstimatedError() - choices.GetStepError() + picture.Choice.model_error;
+  const double room = this->Tolerance - others;
+  const brume::MarchForecast forecast = brume::forecast_march(this->Internal->Marcher,
+    scene,
     settings,
-    picture.Film,
-    [this](double fraction) { return this->TellProgress(fraction); });
+    picture.Film.width,
+    picture.Film.height,
+    room,
+    picture.Choice.beyond);
+  double error = choices.GetStepError();
+  double before = picture.Passed();
+  brume::MarchStatistics march;
+  const auto render = [&](brume::Film& film)
+  {
+    before = picture.Passed();
+    march = this->Internal->Marcher.render(
+      scene, settings, film, [this](double fraction) { return this->TellProgress(fraction); });
+    return march.completed;
+  };
+  picture.Predicted = forecast.seconds;
+  bool scaled = false;
+  if (forecast.distance > 1)
+  {
+    const auto part = [&forecast](int size)
+    { return (size + forecast.distance - 1) / forecast.distance; };
+    brume::Film small(part(picture.Film.width), part(picture.Film.height));
+    if (!render(small))
+    {
+      return;
+    }
+    error = brume::error_of_scaled(
+      this->Internal->Marcher, scene, settings, small, picture.Choice.beyond);
+    scaled = error <= room;
+    if (scaled)
+    {
+      picture.Film = brume::scaled(small, picture.Film.width, picture.Film.height);
+      picture.Distance = forecast.distance;
+      picture.Predicted /= forecast.distance * forecast.distance;
+      error = std::max(error, forecast.error);
+    }
+    else
+    {
+      error = choices.GetStepError(); // the strips missed something
+    }
+  }
+  if (!scaled)
+  {
+    render(picture.Film);
+  }
   picture.Prepared = before + march.seconds_prepare;
   if (march.rays == 0)
   {
@@ -124,8 +167,7 @@ void vtkBrumeSmartVolumeMapper::March(Picture& picture)
   picture.Statistics =
     brume::statistics_of(scene, settings, march, choices.GetPlan(), picture.Window);
   picture.Statistics["step_chosen_by"] = "tolerance";
-  const double error = choices.GetEstimatedError() + picture.Choice.model_error;
-  picture.Statistics["estimated_error"] = error;
+  picture.Statistics["estimated_error"] = others + error;
   picture.Statistics["tolerance_met"] =
     choices.IsToleranceMet() && picture.Choice.model_error <= this->Tolerance;
   if (brume::is_lit(scene))

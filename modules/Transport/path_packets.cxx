@@ -257,6 +257,20 @@ private:
       hn::MulAdd(At, Along.z, Begin.z) };
   }
 
+  /// RandomStream::stratify, of each lane's sample.
+  Word stratified(Word word) const
+  {
+    constexpr int bits = RandomStream::strata_bits;
+    const Words turned = random_block({ { hn::Set(word_tag, RandomStream::of_strata),
+                                        hn::ShiftRight<bits>(Sample),
+                                        Pixel,
+                                        hn::Zero(word_tag) } },
+      Seed);
+    const Word part =
+      hn::And(hn::Xor(Sample, turned.word[0]), hn::Set(word_tag, RandomStream::strata - 1u));
+    return hn::Or(hn::ShiftLeft<32 - bits>(part), hn::ShiftRight<bits>(word));
+  }
+
   Words draw(Mask mask)
   {
     const Words words = random_block({ { Block, Sample, Pixel, hn::Zero(word_tag) } }, Seed);
@@ -570,7 +584,8 @@ private:
     Alive = hn::Or(Alive, fresh);
     const Words words = draw(fresh);
     Choice = hn::IfThenElse(fresh_word, words.word[1], Choice);
-    aim(fresh, { load(heading[0]), load(heading[1]), load(heading[2]) }, free_path(words.word[0]));
+    const Word first = stratified(words.word[0]);
+    aim(fresh, { load(heading[0]), load(heading[1]), load(heading[2]) }, free_path(first));
     End = select(fresh, hn::Min(End, hn::Load(float_tag, length)), End);
   }
 

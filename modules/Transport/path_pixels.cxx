@@ -1,22 +1,41 @@
 #include "Transport/path_pixels.h"
 
+#include <algorithm>
 #include <map>
 
 namespace brume
 {
 
-namespace
+void PathSums::add(std::size_t pixel, const glm::dvec3& radiance)
 {
-
-void add(PathSums& result, std::size_t pixel, const glm::dvec3& radiance)
-{
+  constexpr int strata = RandomStream::strata;
+  const bool whole = ++this->samples[pixel] % strata == 0;
   for (int c = 0; c < 3; ++c)
   {
-    result.sums[3 * pixel + c] += radiance[c];
-    result.squares[3 * pixel + c] += radiance[c] * radiance[c];
+    const std::size_t i = 3 * pixel + c;
+    this->sums[i] += radiance[c];
+    this->squares[i] += radiance[c] * radiance[c];
+    this->open[i] += radiance[c];
+    if (whole)
+    {
+      this->groups[i] += this->open[i] * this->open[i] / strata;
+      this->open[i] = 0.0;
+    }
   }
 }
 
+double PathSums::variance(std::size_t pixel, int channel) const
+{
+  constexpr int strata = RandomStream::strata;
+  constexpr int enough = 16;
+  const std::size_t i = 3 * pixel + channel;
+  const int n = this->samples[pixel];
+  const int m = n / strata;
+  const double sum = m < enough ? this->sums[i] : this->sums[i] - this->open[i];
+  const double squares = m < enough ? this->squares[i] : this->groups[i];
+  const int paths = m < enough ? n : m * strata;
+  const int independent = m < enough ? n : m;
+  return independent < 2 ? 0.0 : std::max(squares - sum * (sum / paths), 0.0) / (independent - 1);
 }
 
 std::uint64_t trace_pixels(const PathScene& scene,
@@ -36,15 +55,15 @@ std::uint64_t trace_pixels(const PathScene& scene,
   const auto flush = [&](int samples, const std::vector<PathStart>& starts)
   {
     radiance.resize(starts.size() * samples * 3);
-    trace_paths(*scene.packets(), starts, samples, scene.most_scatterings(), seed, radiance.data(), counts);
+    trace_paths(
+      *scene.packets(), starts, samples, scene.most_scatterings(), seed, radiance.data(), counts);
     const float* next = radiance.data();
     for (const PathStart& start : starts)
     {
       for (int n = 0; n < samples; ++n, next += 3)
       {
-        add(result, start.pixel, glm::dvec3(next[0], next[1], next[2]));
+        result.add(start.pixel, glm::dvec3(next[0], next[1], next[2]));
       }
-      result.samples[start.pixel] += samples;
     }
   };
   for (int x = from; x < to; ++x)
@@ -81,8 +100,8 @@ std::uint64_t trace_pixels(const PathScene& scene,
     for (int n = first; n < target; ++n)
     {
       RandomStream random(seed, pixel, static_cast<std::uint32_t>(n));
-      add(result, pixel, scene.radiance(sight, random, counts));
-      ++result.samples[pixel];
+      random.stratify();
+      result.add(pixel, scene.radiance(sight, random, counts));
     }
   }
   for (const auto& [samples, starts] : together)

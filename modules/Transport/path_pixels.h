@@ -4,6 +4,8 @@
 #include "Transport/path_scene.h"
 #include "Transport/path_sights.h"
 
+#include <glm/vec3.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -16,21 +18,33 @@ struct PathSums
 {
   std::vector<double> sums;    ///< R, G, B a pixel, over its paths
   std::vector<double> squares; ///< the same of squares
-  std::vector<int> samples;    ///< paths of each pixel
+  /// The same of the squared sums of each RandomStream::strata paths, over their number: these are
+  /// independent, and paths among them are not.
+  std::vector<double> groups;
+  std::vector<double> open; ///< sums over the last paths, which are no whole group yet
+  std::vector<int> samples; ///< paths of each pixel
 
   explicit PathSums(std::size_t pixels = 0)
     : sums(3 * pixels, 0.0)
     , squares(3 * pixels, 0.0)
+    , groups(3 * pixels, 0.0)
+    , open(3 * pixels, 0.0)
     , samples(pixels, 0)
   {
   }
+
+  /// The next path of a pixel.
+  void add(std::size_t pixel, const glm::dvec3& radiance);
+  /// The variance of its paths, as that of their mean times their number is: by groups when there
+  /// are enough, else by single paths, whose variance is no less.
+  double variance(std::size_t pixel, int channel) const;
 };
 
 /// How many paths pixels are to have.
 struct PathTargets
 {
-  int all = 0;                ///< the most
-  const int* each = nullptr;  ///< of each pixel of the picture; null: `all`
+  int all = 0;               ///< the most
+  const int* each = nullptr; ///< of each pixel of the picture; null: `all`
   int of(std::size_t pixel) const
   {
     return this->each && this->each[pixel] < this->all ? this->each[pixel] : this->all;

@@ -117,17 +117,10 @@ struct PathTracer::Kept
     return sum / static_cast<double>(this->Paths.samples.size());
   }
 
-  /// The variance of a pixel's paths.
-  double variance_of_path(std::size_t pixel, int channel) const
-  {
-    const int n = this->Paths.samples[pixel];
-    const double sum = this->Paths.sums[3 * pixel + channel];
-    return n < 2 ? 0.0 : std::max(this->Paths.squares[3 * pixel + channel] - sum * (sum / n), 0.0) / (n - 1);
-  }
-  /// The variance of their mean.
+  /// The variance of the mean of a pixel's paths.
   double variance(std::size_t pixel, int channel) const
   {
-    return this->variance_of_path(pixel, channel) / std::max(this->Paths.samples[pixel], 1);
+    return this->Paths.variance(pixel, channel) / std::max(this->Paths.samples[pixel], 1);
   }
   /// At least this much, where all of a pixel's paths are black. What its ray meets does not dim: nothing is
   /// there that light could be found in.
@@ -155,10 +148,10 @@ struct PathTracer::Kept
       {
         for (int i = std::max(x - 1, 0); i <= std::min(x + 1, this->Width - 1); ++i, ++count)
         {
-          around += this->variance_of_path(static_cast<std::size_t>(j) * this->Width + i, c);
+          around += this->Paths.variance(static_cast<std::size_t>(j) * this->Width + i, c);
         }
       }
-      const double own = this->variance_of_path(static_cast<std::size_t>(y) * this->Width + x, c);
+      const double own = this->Paths.variance(static_cast<std::size_t>(y) * this->Width + x, c);
       v[c] = std::isnan(own)
                ? own
                : std::max({ own, around / count, this->unfound_variance(found, x, y, c) });

@@ -22,6 +22,21 @@ public:
   {
   }
 
+  /// The first number of a path, before any is drawn: of each `strata` samples of a pixel that follow
+  /// one another, beginning with a multiple of it, one is in each of as many equal parts of [0, 1]. Each is
+  /// as uniform as without, and independent of all that are not among those samples.
+  void stratify()
+  {
+    this->Block = block(this->Counter, { this->Seed, own_key });
+    const Words turned =
+      block({ of_strata, this->Counter[1] / strata, this->Counter[2], this->Counter[3] },
+        { this->Seed, own_key });
+    const std::uint32_t part = (this->Counter[1] ^ turned[0]) % strata;
+    this->Block[0] = part << (32 - strata_bits) | this->Block[0] >> strata_bits;
+    ++this->Counter[0];
+    this->Used = 0;
+  }
+
   /// The next 32 random bits.
   std::uint32_t bits()
   {
@@ -43,6 +58,9 @@ public:
   static constexpr std::uint32_t factors[2] = { 0xD2511F53u, 0xCD9E8D57u };
   static constexpr std::uint32_t key_steps[2] = { 0x9E3779B9u, 0xBB67AE85u };
   static constexpr std::uint32_t own_key = 0x42727565u; ///< beside the seed
+  static constexpr int strata_bits = 3;
+  static constexpr std::uint32_t strata = 1u << strata_bits;
+  static constexpr std::uint32_t of_strata = 0xFFFFFFFFu; ///< in place of the number of a draw
   ///@}
 
   using Words = std::array<std::uint32_t, 4>;

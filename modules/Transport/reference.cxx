@@ -10,7 +10,6 @@
 
 #include <atomic>
 #include <chrono>
-#include <limits>
 #include <mutex>
 #include <stdexcept>
 #include <thread>
@@ -99,19 +98,6 @@ std::unique_ptr<RayIntegral> make_ray_integral(const ReferenceScene& scene, cons
   return scene.lighting ? make_lit(scene, ray) : make_composite(scene, ray);
 }
 
-namespace
-{
-
-/// A halving changes a smooth ray four times less than the one before. Where a ray has kinks or jumps, a
-/// change may be small by chance: then the one before was not.
-bool has_settled(double change, double before, double tolerance)
-{
-  const bool first = before == std::numeric_limits<double>::infinity();
-  return first ? change <= 0.125 * tolerance : change <= tolerance && before <= 8.0 * tolerance;
-}
-
-}
-
 ReferenceStatistics render_reference(const Scene& scene, const ReferenceSettings& settings,
   Film& film, const Progress& progress)
 {
@@ -130,6 +116,8 @@ ReferenceStatistics render_reference(const Scene& scene, const ReferenceSettings
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return statistics;
   }
+  // Across sharp surfaces two pictures that are both wrong agree by chance now and then, three hardly.
+  constexpr int calm_doublings = 2;
   const ReferenceScene prepared(scene);
   std::mutex mutex;
   double total_change = 0.0;
@@ -143,18 +131,18 @@ ReferenceStatistics render_reference(const Scene& scene, const ReferenceSettings
       RayResult last = integral->integrate(1);
       std::uint64_t samples = last.samples;
       double change = 0.0;
-      double before = std::numeric_limits<double>::infinity(); // the change before that one
+      int calm = 0; // doublings in a row that changed little
       for (int pieces = 2; !integral->exact(); pieces *= 2)
       {
         const RayResult finer = integral->integrate(pieces);
         samples += finer.samples;
         change = finer.change_from(last);
         last = finer;
-        if (has_settled(change, before, settings.tolerance) || 2 * pieces > settings.most_pieces)
+        calm = change <= settings.tolerance ? calm + 1 : 0;
+        if (calm == calm_doublings || 2 * pieces > settings.most_pieces)
         {
           break;
         }
-        before = change;
       }
       store(film, pixel, ray, last, change);
       const std::lock_guard<std::mutex> lock(mutex);

@@ -15,7 +15,7 @@ namespace brume
 struct ReferenceSettings
 {
   /// A ray is refined until neither radiance nor transmittance changes by more than this, as a
-  /// fraction of white; > 0.
+  /// fraction of white, in two doublings in a row; > 0.
   double tolerance = 1e-4;
   /// Pieces that each voxel cell on the way is cut into at the most; a power of two, ≥ 2. A ray
   /// that still changes there keeps its last change as its error.

@@ -49,12 +49,14 @@ constexpr double most_rays = 0.95;
 /// crossing of a voxel takes cell by cell.
 constexpr double cost_of_integrated = 1.6;
 constexpr double samples_by_cells = 3.5;
-/// Rays that have to meet something, of 64 × 64, and the longest step where fewer do, in voxel edges.
+/// Rays that have to meet something, of 64 × 64, and the longest step where fewer do, in voxel
+/// edges.
 constexpr int least_met = 32;
 constexpr double step_of_specks = 0.25;
 /// Shadows: rays along each side of the picture, for one light; how much larger the error of all
-/// pixels is; the tolerances below which light volumes are of 32 bits, and are not made at all; nodes
-/// of all light volumes that are swept in the time of a picture, and the most of one and of all.
+/// pixels is; the tolerances below which light volumes are of 32 bits, and are not made at all;
+/// nodes of all light volumes that are swept in the time of a picture, and the most of one and of
+/// all.
 constexpr double shadow_probes = 20.0;
 constexpr double unseen_shadows = 1.5;
 constexpr double precise_below = 1e-3;
@@ -62,8 +64,8 @@ constexpr double least_of_volumes = 1e-4;
 constexpr double nodes_of_a_picture = 4e6;
 constexpr double nodes_at_most = 2e7;
 constexpr double nodes_of_all_at_most = 1e8;
-/// From here on rays through classified matter are not taken for what the best light volume misses at
-/// its surfaces: a hundred times the time is more than so loose a tolerance is worth.
+/// From here on rays through classified matter are not taken for what the best light volume misses
+/// at its surfaces: a hundred times the time is more than so loose a tolerance is worth.
 constexpr double rays_below = 9e-4;
 constexpr double rounding_of_rays = 1e-5;
 constexpr double shortest_of_shadows = 1.0 / 8.0; ///< voxel edges
@@ -71,8 +73,9 @@ constexpr double shortest_of_shadows = 1.0 / 8.0; ///< voxel edges
 bool is_lit(const Scene& scene)
 {
   return scene.blend_mode == BlendMode::Composite &&
-    std::any_of(
-      scene.volumes.begin(), scene.volumes.end(), [](const Volume& v) { return v.medium.lit; });
+         std::any_of(scene.volumes.begin(),
+           scene.volumes.end(),
+           [](const Volume& v) { return v.medium.lit; });
 }
 
 /// A few rays of a scene, marched with one step after another.
@@ -203,6 +206,17 @@ double scale_of_estimates(const Film& film, const std::vector<double>& errors, d
   return quantile(ratios, 0.95);
 }
 
+/// Makes a step with the error `error` (at most the tolerance) as long as the tolerance allows,
+/// where twice the step has the error `twice`.
+void lengthen(double& step, double& error, double twice, double tolerance)
+{
+  const double power = std::max(std::log2(twice / std::max(error, 1e-12)), 1.0);
+  const double room = tolerance / std::max(error, 0.125 * tolerance);
+  const double factor = std::clamp(std::pow(room, 1.0 / power), 1.0, 1.999);
+  step *= factor;
+  error = std::min(error * std::pow(factor, power), tolerance);
+}
+
 }
 
 ShadowChoice choose_shadows(Marcher& marcher, const Scene& scene, double tolerance, int threads)
@@ -235,7 +249,7 @@ ShadowChoice choose_shadows(Marcher& marcher, const Scene& scene, double toleran
     for (int axis = 0; axis < 3; ++axis)
     {
       cells *= std::max(1.0, volume.grid.upper(axis) - volume.grid.lower(axis)) *
-        glm::length(glm::dvec3(volume.data_from_index[axis])) / edge;
+               glm::length(glm::dvec3(volume.data_from_index[axis])) / edge;
     }
     nodes += cells;
   }
@@ -329,7 +343,7 @@ StepChoice choose_step(Marcher& marcher,
   StepChoice choice;
   // In voxel edges. Light from one side bends where matter alone does not.
   const bool lit = is_lit(scene);
-  const double least = beyond > 0.0                      ? shortest_of_share
+  const double least = beyond > 0.0                        ? shortest_of_share
                        : lit && tolerance < sharpest_below ? shortest_lit
                                                            : shortest;
   const int passed_over = std::max(beyond > 0.0 ? credible_count(edge * edge, beyond) : 0, 0);
@@ -350,22 +364,23 @@ StepChoice choose_step(Marcher& marcher,
     return margin * counting(probe.changes(film, control));
   };
   double last_change = 0.0; // by the halving before
+  double falls = 4.0;       // by which changes fall from one halving to the next
   double step = lit ? longest_lit : longest;
   Film longer = probe.march(StepRule::Midpoint, step);
   Film shorter;
+  std::vector<Film> before;   // those with longer steps, the longest first
   double step_of_most = 0.0;  // with which most rays are within the tolerance
   double scale_of_most = 0.0; // of their estimates
   for (;;)
   {
     shorter = probe.march(StepRule::Midpoint, 0.5 * step);
     std::vector<double> errors = probe.changes(longer, shorter);
-    double rest = 4.0 / 3.0; // all halvings to come, by this one
     const double change = counting(errors);
     if (beyond > 0.0 && last_change > 0.0 && change > 0.0)
     {
-      const double falls = std::clamp(last_change / change, 1.5, 4.0);
-      rest = falls / (falls - 1.0);
+      falls = std::clamp(last_change / change, 1.5, 4.0);
     }
+    const double rest = falls / (falls - 1.0); // all halvings to come, by this one
     last_change = change;
     for (double& error : errors)
     {
@@ -390,7 +405,11 @@ StepChoice choose_step(Marcher& marcher,
       break;
     }
     step *= 0.5;
-    std::swap(longer, shorter);
+    if (beyond > 0.0)
+    {
+      before.push_back(std::move(longer));
+    }
+    longer = std::move(shorter);
   }
   // Specks that hardly any ray met tell nothing of longer steps, and leave little to march through.
   const bool specks =
@@ -412,8 +431,8 @@ StepChoice choose_step(Marcher& marcher,
     }
   }
   // Not even the shortest steps do for all rays of some lit scenes: those few are refined as far.
-  if (!specks && (choice.met || lit) && scene.blend_mode == BlendMode::Composite && step_of_most >= 4.0 * step &&
-    scale_of_most > 0.0)
+  if (!specks && (choice.met || lit) && scene.blend_mode == BlendMode::Composite &&
+      step_of_most >= 4.0 * step && scale_of_most > 0.0)
   {
     choice.step = step_of_most * smallest_voxel_edge(scene);
     choice.refinements = static_cast<int>(std::lround(std::log2(step_of_most / step)));
@@ -421,29 +440,62 @@ StepChoice choose_step(Marcher& marcher,
     choice.estimated_error = std::max(tolerance, choice.met ? 0.0 : choice.estimated_error);
     return choice;
   }
-  if (!specks && choice.met && step < (lit ? longest_lit : longest))
+  if (!specks && choice.met && beyond > 0.0)
+  {
+    // Longer ones again, by themselves against the finest picture at hand: what they miss is far
+    // less than what a halving's change makes one expect across sharp surfaces.
+    double all = falls; // by which errors fall from this step to the finest
+    for (; !before.empty(); before.pop_back())
+    {
+      all *= falls;
+      const double error =
+        std::max(all / (all - 1.0) * counting(probe.changes(before.back(), shorter)),
+          2.0 * step > surest ? error_by_control(before.back()) : 0.0);
+      if (error > tolerance)
+      {
+        lengthen(step, choice.estimated_error, error, tolerance);
+        break;
+      }
+      step *= 2.0;
+      choice.estimated_error = error;
+    }
+  }
+  else if (!specks && choice.met && step < (lit ? longest_lit : longest))
   {
     // Twice the step would be too long; some of it is not. Toward longer steps the error may grow
     // faster than with the square: the cube is on the safe side.
-    const double room = tolerance / std::max(choice.estimated_error, 0.125 * tolerance);
-    const double factor = std::min(std::cbrt(room), 1.999);
-    if (step * factor <= surest ||
-        error_by_control(probe.march(StepRule::Midpoint, step * factor)) <= tolerance)
+    double longest_step = step;
+    double error = choice.estimated_error;
+    lengthen(longest_step, error, 8.0 * error, tolerance);
+    if (longest_step <= surest ||
+        error_by_control(probe.march(StepRule::Midpoint, longest_step)) <= tolerance)
     {
-      step *= factor;
-      choice.estimated_error =
-        std::min(choice.estimated_error * factor * factor * factor, tolerance);
+      step = longest_step;
+      choice.estimated_error = error;
     }
   }
   // `shorter` is the finest picture at hand: what another rule makes of a longer step is measured
   // against it.
   if (follows_rule(scene, StepRule::Integrated) && step < 0.5 * longest)
   {
-    const double other = cost_of_integrated * step;
-    const double error =
-      margin * counting(probe.changes(probe.march(StepRule::Integrated, other), shorter));
+    const auto error_of = [&](double length) {
+      return margin * counting(probe.changes(probe.march(StepRule::Integrated, length), shorter));
+    };
+    double other = cost_of_integrated * step;
+    double error = error_of(other);
     if (error < choice.estimated_error && (error <= tolerance || !choice.met))
     {
+      while (beyond > 0.0 && 2.0 * other <= longest)
+      {
+        const double twice = error_of(2.0 * other);
+        if (twice > tolerance)
+        {
+          lengthen(other, error, twice, tolerance);
+          break;
+        }
+        other *= 2.0;
+        error = twice;
+      }
       choice.rule = StepRule::Integrated;
       choice.estimated_error = error;
       step = other;
@@ -467,5 +519,4 @@ StepChoice choose_step(Marcher& marcher,
   choice.step = step * smallest_voxel_edge(scene);
   return choice;
 }
-
 }

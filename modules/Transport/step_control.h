@@ -71,7 +71,8 @@ struct StepChoice
 /// the error that counts is the one that so many of the rays exceed that, were the share larger,
 /// fewer would in one of ten cases; nothing is added for rays that were not looked at; steps may go
 /// down to 1/256 voxel edge; and where errors fall more slowly than with the square of the step, as
-/// across sharp surfaces, they are taken to go on like that.
+/// across sharp surfaces, they are taken to go on like that. Longer steps are compared with the
+/// shortest again then, and the step is as long as these errors allow (docs/theory/choice.md).
 StepChoice choose_step(Marcher& marcher,
   const Scene& scene,
   double tolerance,

@@ -7,7 +7,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace brume
 {
@@ -30,9 +33,12 @@ constexpr double share_of_second = 0.15;
 constexpr double step_of_second = 8.0;
 /// Of the quickest picture's time, what goes with its steps, before there is a second.
 constexpr double usual_share_of_steps = 0.3;
-/// Strips of a picture that tell its time.
-constexpr int rows_of_strip = 8;
-constexpr int most_strips = 3;
+/// Strips of a picture that tell its time, and how much finer it is than it has to be.
+constexpr int rows_of_strip = 6;
+constexpr int most_strips = 4;
+constexpr int longest_distance = 4; ///< pixels; below the rows of a strip
+/// What all halvings of the steps change, after the first and by what that changes.
+constexpr double rest_of_steps = 1.0 / 3.0;
 /// Another picture is made where its steps are shorter by this at the least.
 constexpr double worth = 1.2;
 
@@ -48,19 +54,26 @@ bool is_lit(const Scene& scene)
                                 [](const Volume& v) { return v.medium.lit; });
 }
 
-/// What 99.9 % of the pixels changed by no more than.
-double change(const Film& longer, const Film& shorter)
+/// For each pixel the largest difference of a channel.
+std::vector<double> errors_of(const Film& film, const Film& truth)
 {
-  std::vector<double> changes(shorter.size(), 0.0);
-  for (std::size_t pixel = 0; pixel < changes.size(); ++pixel)
+  std::vector<double> errors(film.size(), 0.0);
+  for (std::size_t pixel = 0; pixel < errors.size(); ++pixel)
   {
     for (int c = 0; c < 3; ++c)
     {
-      changes[pixel] = std::max({ changes[pixel],
-        std::abs(double(longer.radiance[c][pixel]) - shorter.radiance[c][pixel]),
-        std::abs(double(longer.transmittance[c][pixel]) - shorter.transmittance[c][pixel]) });
+      errors[pixel] = std::max({ errors[pixel],
+        std::abs(double(film.radiance[c][pixel]) - truth.radiance[c][pixel]),
+        std::abs(double(film.transmittance[c][pixel]) - truth.transmittance[c][pixel]) });
     }
   }
+  return errors;
+}
+
+/// What 99.9 % of the pixels changed by no more than.
+double change(const Film& longer, const Film& shorter)
+{
+  std::vector<double> changes = errors_of(longer, shorter);
   const auto at =
     changes.begin() + static_cast<std::ptrdiff_t>(changes.size() - 1 - changes.size() / 1000);
   std::nth_element(changes.begin(), at, changes.end());
@@ -90,19 +103,24 @@ Scene for_size(const Scene& scene, int width, int height, int new_width, int new
   return other;
 }
 
-double seconds_of_march(Marcher& marcher,
-  const Scene& scene,
-  const MarchSettings& settings,
-  int width,
-  int height)
+namespace
+{
+
+/// Rows of a picture, and the scene that draws them.
+struct Strip
+{
+  Scene scene;
+  Film film;
+};
+
+std::vector<Strip> strips_of(const Scene& scene, int width, int height)
 {
   const int rows = std::min(rows_of_strip, height);
-  const int strips = std::clamp(height / (8 * rows), 1, most_strips);
-  double seconds = 0.0;
-  Film film(width, rows);
-  for (int strip = 0; strip < strips; ++strip)
+  const int count = std::clamp(height / (8 * rows), 1, most_strips);
+  std::vector<Strip> strips;
+  for (int strip = 0; strip < count; ++strip)
   {
-    const int bottom = static_cast<int>((strip + 0.5) * height / strips - 0.5 * rows);
+    const int bottom = static_cast<int>((strip + 0.5) * height / count - 0.5 * rows);
     Scene part = scene;
     if (!scene.surface_depth.empty())
     {
@@ -115,9 +133,126 @@ double seconds_of_march(Marcher& marcher,
     cut[1][1] = scale;
     cut[3][1] = scale - 2.0 * bottom / rows - 1.0;
     part.camera.clip_from_world = cut * scene.camera.clip_from_world;
-    seconds += marcher.render(part, settings, film).seconds;
+    strips.push_back({ std::move(part), Film(width, rows) });
   }
-  return seconds * static_cast<double>(height) / (static_cast<double>(rows) * strips);
+  return strips;
+}
+
+/// For all pixels but those at the strips' edges: how far they are from the middle of the four that
+/// lie half of the distance from them to the side and up or down, where `finer` strips have shorter
+/// steps, with what that changes.
+void add_errors(std::vector<double>& errors, const Film& film, const Film& finer, int distance)
+{
+  const int half = distance / 2;
+  const std::ptrdiff_t up = static_cast<std::ptrdiff_t>(half) * film.width;
+  for (int y = half; y < film.height - half; ++y)
+  {
+    for (int x = half; x < film.width - half; ++x)
+    {
+      const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(y) * film.width + x;
+      double error = 0.0;
+      const auto compare = [&](const std::vector<float>& plane, const std::vector<float>& fine)
+      {
+        const float* at = plane.data() + i;
+        const double between =
+          0.25 * (double(at[up - half]) + at[up + half] + at[-up - half] + at[-up + half]);
+        const double truth = fine[static_cast<std::size_t>(i)];
+        error = std::max(error, std::abs(between - truth) + rest_of_steps * std::abs(*at - truth));
+      };
+      for (int c = 0; c < 3; ++c)
+      {
+        compare(film.radiance[c], finer.radiance[c]);
+        compare(film.transmittance[c], finer.transmittance[c]);
+      }
+      errors.push_back(error);
+    }
+  }
+}
+
+/// The error that all but the share have, credibly.
+double all_but(std::vector<double> errors, double share)
+{
+  const int beyond = std::max(credible_count(static_cast<int>(errors.size()), share), 0);
+  std::nth_element(errors.begin(), errors.begin() + beyond, errors.end(), std::greater<>());
+  return errors[static_cast<std::size_t>(beyond)];
+}
+
+}
+
+MarchForecast forecast_march(Marcher& marcher,
+  const Scene& scene,
+  const MarchSettings& settings,
+  int width,
+  int height,
+  double room,
+  double beyond)
+{
+  MarchForecast forecast;
+  forecast.error = std::numeric_limits<double>::quiet_NaN();
+  std::vector<Strip> strips = strips_of(scene, width, height);
+  int rows = 0;
+  for (Strip& strip : strips)
+  {
+    forecast.seconds += marcher.render(strip.scene, settings, strip.film).seconds;
+    rows += strip.film.height;
+  }
+  forecast.seconds *= static_cast<double>(height) / rows;
+  if (!(room > 0.0) || !scene.surface_depth.empty() ||
+      strips.front().film.height <= longest_distance || width <= 2 * longest_distance)
+  {
+    return forecast;
+  }
+  std::vector<Film> finer;
+  for (int distance = 2; distance <= longest_distance; distance *= 2)
+  {
+    std::vector<double> errors;
+    if (finer.empty())
+    {
+      for (const Strip& strip : strips)
+      {
+        add_errors(errors, strip.film, strip.film, distance);
+      }
+      if (all_but(std::move(errors), beyond) > room)
+      {
+        break;
+      }
+      MarchSettings half = settings;
+      half.step *= 0.5;
+      for (const Strip& strip : strips)
+      {
+        finer.emplace_back(width, strip.film.height);
+        marcher.render(strip.scene, half, finer.back());
+      }
+      errors.clear();
+    }
+    for (std::size_t i = 0; i < strips.size(); ++i)
+    {
+      add_errors(errors, strips[i].film, finer[i], distance);
+    }
+    const double error = all_but(std::move(errors), beyond);
+    if (error > room)
+    {
+      break;
+    }
+    forecast.distance = distance;
+    forecast.error = error;
+  }
+  return forecast;
+}
+
+double error_of_scaled(Marcher& marcher,
+  const Scene& scene,
+  const MarchSettings& settings,
+  const Film& film,
+  double beyond)
+{
+  // A prime, so that rays lie at all places between those of the film.
+  const int edge = film.size() < 128 * 128 ? 37 : 61;
+  MarchSettings half = settings;
+  half.step *= 0.5;
+  Film truth(edge, edge);
+  marcher.render(scene, half, truth);
+  return all_but(errors_of(scaled(film, edge, edge), truth), beyond);
 }
 
 Film scaled(const Film& film, int width, int height)

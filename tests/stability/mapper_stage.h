@@ -185,7 +185,7 @@ inline void for_each_mapper(const std::function<void(Stage&, const std::string&)
   }
   brume::force_simd_target("");
   auto paths = vtkSmartPointer<vtkBrumePathTraceMapper>::New();
-  paths->SetSamplesPerPixel(2); // transmittance and what is not scattered have no noise
+  paths->SetSamplesPerPixel(8); // transmittance has no noise
   Stage traced(paths);
   run(traced, "vtkBrumePathTraceMapper");
   Stage smart(vtkSmartPointer<vtkBrumeSmartVolumeMapper>::New());

@@ -236,9 +236,7 @@ inline std::vector<Way> ways(int paths = 256)
     [paths](const Case& what)
     {
       PathSettings settings;
-      // A path of the clear channel meets each of the opaque one's collisions.
-      const bool coloured = what.depth.x != what.depth.z;
-      settings.samples_per_pixel = coloured ? paths / 16 : paths;
+      settings.samples_per_pixel = paths;
       settings.most_scatterings = 1;
       return traced(TransportSlab(what).scene, settings, pixels, pixels);
     } });
@@ -269,7 +267,7 @@ inline std::vector<Way> ways(int paths = 256)
     [paths](const Case& what)
     {
       vtkNew<vtkBrumePathTraceMapper> mapper;
-      mapper->SetSamplesPerPixel(what.depth.x != what.depth.z ? paths / 16 : paths);
+      mapper->SetSamplesPerPixel(paths);
       mapper->SetMaximumScatterings(1);
       mapper->SetTolerance(0.0);
       return by_mapper(what, mapper);

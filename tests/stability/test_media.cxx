@@ -185,11 +185,12 @@ TEST(Media, Opaque)
 TEST(Media, OpaqueAndClear)
 {
   HardCase one("Media",
-    "one channel of an optical depth of 1e4, one of 1, one clear",
+    "one channel of an optical depth of 1000, one of 1, one clear",
     "three media in one place: one majorant, one step and one early end for all",
     promised_of_deep);
   Case what;
-  what.depth = glm::dvec3(1e4, 1.0, 0.0);
+  what.depth = glm::dvec3(1e3, 1.0, 0.0);
+  what.albedo = glm::dvec3(0.9, 0.5, 1.0);
   what.suns = { { 40.0, 20.0 } };
   expect_everywhere(one, what, true, Lattice::Bounds);
 }

@@ -70,7 +70,8 @@ TEST(OpticsEnds, BlackBody)
     "a black body from 0 K to 1e5 K",
     "Planck's `e^(hc/λkT) − 1` overflows where it is cold and cancels where it is hot; its visible "
     "radiance spans 300 decades",
-    "finite, never negative, 0 at 0 K, grows with the temperature in every channel from the "
+    "the luminance within a relative 1e-3 of its integral; finite, never negative, 0 at 0 K, grows "
+    "with the temperature in every channel from the "
     "reference on; "
     "beyond 1e5 K as at 1e5 K");
   double fall = 0.0;
@@ -89,6 +90,23 @@ TEST(OpticsEnds, BlackBody)
     }
     last = now;
   }
+  // The integral over the visible, in long double.
+  double off = 0.0;
+  for (const double kelvin : { 300.0, 1000.0, 5000.0, 30000.0, 1e5 })
+  {
+    const auto lobe = [](long double nm, long double middle, long double below, long double above)
+    { return std::exp(-0.5L * std::pow((nm - middle) / (nm < middle ? below : above), 2.0L)); };
+    long double sum = 0.0L;
+    for (long double nm = 360.25L; nm < 830.0L; nm += 0.5L)
+    {
+      const long double y =
+        0.821L * lobe(nm, 568.8L, 46.9L, 40.5L) + 0.286L * lobe(nm, 530.9L, 16.3L, 31.1L);
+      sum += y * 1.191042972e-16L / std::pow(nm * 1e-9L, 5.0L) /
+             std::expm1(0.01438776877L / (nm * 1e-9L * kelvin)) * 0.5e-9L;
+    }
+    off = std::max(off, static_cast<double>(std::abs(black_body_xyz(kelvin).y / sum - 1.0L)));
+  }
+  body.measure(off, 1e-3, "relative of the luminance", "double");
   body.measure(
     std::max(fall, 0.0), 0.0, "relative fall from one temperature to a hotter one", "double");
   body.holds(finite, "finite and not negative", "double");

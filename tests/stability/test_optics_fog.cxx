@@ -150,8 +150,8 @@ TEST(OpticsFog, StaysInBounds)
     "any fog, any ray, any stretch: densities to 1e300, heights to ±1e30, lengths to infinity",
     "every exponential of the closed forms overflows somewhere, and ∞ · 0 is NaN",
     "transmittance in [0, 1]; radiance of sky and sun finite, never negative, never more than what "
-    "the fog "
-    "hides can send");
+    "the fog hides can send; never clearer further on; all of a rising ray as its closed form, "
+    "within 1e-9");
   const double infinity = std::numeric_limits<double>::infinity();
   const int held = expect_property("fog in bounds",
     2000,
@@ -178,6 +178,25 @@ TEST(OpticsFog, StaysInBounds)
         RC_ASSERT(std::isfinite(lamp[c]) && lamp[c] >= 0.0);
       }
       RC_ASSERT(through[2] == 1.0 && sky[2] == 0.0 && sun[2] == 0.0);
+      // Further on it is never clearer.
+      RC_ASSERT(through[0] <= fog.transmittance(ray, 0.0, 0.25 * to)[0] * (1.0 + 1e-12));
+      // All of a rising ray has a closed form: the densest layer's, a falloff deep.
+      const double steep = falloff * ray.slope;
+      const double whole = density * std::exp(-falloff * ray.height) / steep;
+      if (steep > 1e-200 && steep * to > 1e3 && std::isfinite(whole))
+      {
+        RC_ASSERT(std::abs(through[0] - std::exp(-whole)) <= 1e-9);
+      }
     });
+  for (const double slope : { 0.02, 0.7, 1.0 })
+  {
+    const Scene scene = scene_of(1e100, 3e99); // falloff times length overflows
+    const FogModel fog(scene);
+    const FogRay ray = fog.ray(glm::dvec3(0.0), rising(slope));
+    one.measure(std::abs(fog.transmittance(ray, 0.0, 1e300)[0] - std::exp(-0.3 / ray.slope)),
+      1e-12,
+      "of the transmittance of layers 1e-100 thick",
+      "double");
+  }
   one.holds(held, property_trials(2000), "random stretches in bounds", "double");
 }

@@ -57,6 +57,41 @@ TEST(RandomStream, StreamsDifferAndRepeat)
 }
 
 // Drawn directions have the density that value() tells: their mean cosine and their histogram.
+// Of eight samples that follow one another one in each eighth, in another order each time; all else is
+// what it is without.
+TEST(RandomStream, FirstNumbersAreStratified)
+{
+  constexpr int strata = RandomStream::strata;
+  int orders[strata] = {};
+  double sum = 0.0;
+  for (std::uint32_t group = 0; group < 4000; ++group)
+  {
+    unsigned met = 0;
+    for (std::uint32_t i = 0; i < strata; ++i)
+    {
+      RandomStream stratified(3, 17, strata * group + i);
+      RandomStream plain(3, 17, strata * group + i);
+      stratified.stratify();
+      const double u = stratified.uniform();
+      const int part = static_cast<int>(u * strata);
+      met |= 1u << part;
+      orders[part] += i == 0;
+      sum += u * strata - part;
+      plain.bits();
+      for (int k = 0; k < 9; ++k)
+      {
+        ASSERT_EQ(stratified.bits(), plain.bits());
+      }
+    }
+    ASSERT_EQ(met, (1u << strata) - 1u);
+  }
+  for (int count : orders)
+  {
+    EXPECT_NEAR(count, 500, 5.0 * std::sqrt(500.0));
+  }
+  EXPECT_NEAR(sum / 32000.0, 0.5, 5.0 * std::sqrt(1.0 / 12.0 / 32000.0));
+}
+
 TEST(PhaseSampler, DrawsWhatItTells)
 {
   const std::vector<std::vector<PhaseLobe>> mixtures{ {},
