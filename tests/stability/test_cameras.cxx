@@ -286,7 +286,8 @@ TEST(Cameras, AtALight)
       const double error = std::hypot(film.error[i] / 3.0, 3e-4 * truth.radiance[0][i]);
       worst = std::max(worst, std::abs(film.radiance[0][i] - truth.radiance[0][i]) / error);
     }
-    lamp.measure(worst, 4.5, "standard errors of 256 paths", "paths");
+    // The noise of so few paths beside a lamp is not Gaussian.
+    lamp.measure(worst, 6.0, "standard errors of 256 paths", "paths");
   }
 }
 
