@@ -25,14 +25,6 @@
 namespace brume::app
 {
 
-namespace
-{
-
-/// Of the truth, an environment is cut into at least so many lights.
-constexpr int lights_of_truth = 64;
-
-}
-
 std::string not_drawn_by_paths(const VolumeScene& scene)
 {
   return not_drawn_by(scene.options.modes, MapperKind::PathTrace);
@@ -67,23 +59,8 @@ CostPaths::~CostPaths()
 
 Film CostPaths::trace(std::uint32_t seed, const Watch& watch, std::string& statistics)
 {
-  this->Scene.volume->SetMapper(this->Mapper);
   this->Mapper->SetSeed(seed);
-  this->Whole = [&](double done)
-  { return !InterruptionWatch::requested() && (!watch || watch(done)); };
-  Film film(this->Scene.width(), this->Scene.height());
-  const bool completed =
-    this->Mapper->RenderFilm(this->Scene.volume, this->Scene.camera, this->Scene.lights, film);
-  this->Whole = {};
-  if (!completed)
-  {
-    InterruptionWatch::check("cost");
-    if (this->Mapper->GetAbortExecute())
-    {
-      throw SceneMarch::Stopped();
-    }
-    throw Failure(this->Scene.options.input, "it cannot be drawn", "see brume info");
-  }
+  Film film = draw_watched(this->Scene, this->Mapper, this->Whole, watch, "cost");
   statistics = this->Mapper->GetStatistics();
   return film;
 }
@@ -91,11 +68,6 @@ Film CostPaths::trace(std::uint32_t seed, const Watch& watch, std::string& stati
 StudyTruth CostPaths::truth(double seconds, StudyClock& clock, Film& film)
 {
   const auto start = std::chrono::steady_clock::now();
-  const auto lights = this->Scene.options.medium.environment_lights;
-  if (this->Scene.sky)
-  {
-    this->Scene.sky->SetNumberOfEnvironmentLights(std::max(lights, lights_of_truth));
-  }
   constexpr int any_number = std::numeric_limits<int>::max();
   const int most = this->Scene.options.paths.samples_per_pixel.value_or(any_number);
   this->Mapper->SetSamplesPerPixel(most == any_number ? most : std::max(1, (most + 1) / 2));
@@ -111,10 +83,6 @@ StudyTruth CostPaths::truth(double seconds, StudyClock& clock, Film& film)
     result.samples_per_pixel += statistics["samples_per_pixel"].get<int>();
     *half = { drawn.width, drawn.height, over_scene(drawn, this->Scene, this->Surfaces) };
     film = drawn;
-  }
-  if (this->Scene.sky)
-  {
-    this->Scene.sky->SetNumberOfEnvironmentLights(lights);
   }
   const int scatterings = this->Mapper->GetMaximumScatterings();
   result.truth.picture = mean_of(result.halves);

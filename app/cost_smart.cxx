@@ -50,22 +50,7 @@ CostSmart::~CostSmart()
 
 CostRender CostSmart::draw(const Watch& watch)
 {
-  this->Scene.volume->SetMapper(this->Mapper);
-  this->Whole = [&](double done)
-  { return !InterruptionWatch::requested() && (!watch || watch(done)); };
-  Film film(this->Scene.width(), this->Scene.height());
-  const bool completed =
-    this->Mapper->RenderFilm(this->Scene.volume, this->Scene.camera, this->Scene.lights, film);
-  this->Whole = {};
-  if (!completed)
-  {
-    InterruptionWatch::check("cost");
-    if (this->Mapper->GetAbortExecute())
-    {
-      throw SceneMarch::Stopped();
-    }
-    throw Failure(this->Scene.options.input, "it cannot be drawn", "see brume info");
-  }
+  const Film film = draw_watched(this->Scene, this->Mapper, this->Whole, watch, "cost");
   const std::string& text = this->Mapper->GetStatistics();
   const nlohmann::json statistics = nlohmann::json::parse(text);
   return { { film.width, film.height, over_scene(film, this->Scene, this->Surfaces) },

@@ -36,6 +36,29 @@ void observe(vtkAlgorithm* mapper, const Watch& watch)
   mapper->AddObserver(vtkCommand::ProgressEvent, observer);
 }
 
+Film draw_watched(const VolumeScene& scene,
+  vtkBrumeVolumeMapper* mapper,
+  Watch& whole,
+  const Watch& watch,
+  const char* command)
+{
+  scene.volume->SetMapper(mapper);
+  whole = [&](double done) { return !InterruptionWatch::requested() && (!watch || watch(done)); };
+  Film film(scene.width(), scene.height());
+  const bool completed = mapper->RenderFilm(scene.volume, scene.camera, scene.lights, film);
+  whole = {};
+  if (!completed)
+  {
+    InterruptionWatch::check(command);
+    if (mapper->GetAbortExecute())
+    {
+      throw SceneMarch::Stopped();
+    }
+    throw Failure(scene.options.input, "it cannot be drawn", "see brume info");
+  }
+  return film;
+}
+
 SceneMarch::SceneMarch(const VolumeScene& scene, const char* command)
   : Scene(scene)
   , Command(command)

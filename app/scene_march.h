@@ -13,6 +13,7 @@
 
 class vtkAlgorithm;
 class vtkBrumeRayMarchMapper;
+class vtkBrumeVolumeMapper;
 
 namespace brume::app
 {
@@ -23,6 +24,15 @@ using Watch = std::function<bool(double)>;
 /// Lets `watch` see a mapper's progress and stop it. It must outlive the mapper's renders; an empty one
 /// sees nothing.
 void observe(vtkAlgorithm* mapper, const Watch& watch);
+
+/// The film of a scene drawn by a mapper that has all of it and whose renders `whole` observes; `watch` is
+/// asked on the way. `command` is who says that a render was interrupted. Throws Failure, and
+/// SceneMarch::Stopped where `watch` stopped it.
+Film draw_watched(const VolumeScene& scene,
+  vtkBrumeVolumeMapper* mapper,
+  Watch& whole,
+  const Watch& watch,
+  const char* command);
 
 /// A mapper that has all of a scene, and its surfaces.
 class SceneMarch
