@@ -489,7 +489,7 @@ void LitTables::update(const Scene& scene,
     std::cbrt(std::abs(glm::determinant(glm::dmat3(first.world_from_data))));
   // Where rays find the shadows, the sky's light needs hardly finer nodes than voxels.
   const double spacing = shrink *
-    (task.shadows == ShadowMethod::Rays ? std::clamp(double(task.shadow_step), 0.5 * voxel, voxel)
+    (settings.shadows == ShadowMethod::Rays ? std::clamp(double(task.shadow_step), 0.5 * voxel, voxel)
                                         : double(task.shadow_step));
   const bool sound = spacing > 0.0 && std::isfinite(spacing);
   if (maps && !sound)

@@ -35,6 +35,12 @@ struct Distances
 
 }
 
+double NearLamp::core() const
+{
+  const glm::dvec3& a = this->lamp->light().attenuation;
+  return a.x / a.z;
+}
+
 LampPlace NearLamp::on_ray(const glm::dvec3& begin,
   const glm::dvec3& along,
   double length,
@@ -51,9 +57,7 @@ LampPlace NearLamp::on_ray(const glm::dvec3& begin,
     return result;
   }
   // Light of 1 / (c₀ + c₂ d²) is even in the angle at a point that is farther from the line by c₀ / c₂.
-  const glm::dvec3& attenuation = this->lamp->light().attenuation;
-  const double away =
-    std::max(std::sqrt(passes * passes + attenuation.x / attenuation.z), tiny);
+  const double away = std::max(std::sqrt(passes * passes + this->core()), tiny);
   // The angle there between both ends, and the tangent of the sum of the first end's and a part
   // of it, without differences of angles that are all but the same: a lamp may lie on the ray's line.
   const double first = from - foot;
@@ -76,7 +80,7 @@ LampPlace NearLamp::from_place(const glm::dvec3& begin,
   LampPlace result;
   const glm::dvec3 apart = begin - this->centre();
   const double scale = std::max(glm::length(apart), tiny);
-  const Distances around_lamp{ scale, this->radius };
+  const Distances around_lamp{ std::sqrt(scale * scale + this->core()), this->radius };
   const Distances around_place{ scale, scale + this->radius };
   // From far away, places are only drawn around the lamp: the way is then no shorter than half as
   // far.

@@ -34,6 +34,9 @@ struct NearLamp
   double radius = 0.0;
 
   const glm::dvec3& centre() const { return this->lamp->light().position; }
+  /// The square of the distance within which the light is even rather than as 1/d²: its attenuation is
+  /// that of 1 / (core + d²), but for what is linear in d.
+  double core() const;
 
   /// On a ray from `begin` along a unit vector, evenly by the angle at the lamp, or, of a lamp whose
   /// light c₀ of its attenuation bounds, at a point so far beside it that this is even in its light.
@@ -43,7 +46,7 @@ struct NearLamp
     RandomStream& random) const;
 
   /// From a place that light reaches along `from`: near the lamp by 1/r² or near the place by phase
-  /// function and 1/way², each with a density that has the distance R of both for its scale, and
+  /// function and 1/way², each with a density that has the distance R of both for its scale (the lamp's core added), and
   /// weighted by the balance heuristic. The weight times 1/r² is then below a constant over R.
   LampPlace from_place(const glm::dvec3& begin,
     const glm::dvec3& from,

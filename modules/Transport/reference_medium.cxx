@@ -55,7 +55,9 @@ std::size_t ReferenceMedium::brick(const glm::dvec3& place) const
   std::size_t index = 0;
   for (int axis = 2; axis >= 0; --axis)
   {
-    const int brick = static_cast<int>(std::max(place[axis], 0.0)) >> this->Bricks.shift;
+    // Not a number is in the first brick, what is far away in the last.
+    const int voxel = static_cast<int>(std::min(2e9, std::max(0.0, place[axis])));
+    const int brick = voxel >> this->Bricks.shift;
     index = index * this->Ranges->dims[axis] + std::min(brick, this->Ranges->dims[axis] - 1);
   }
   return index;

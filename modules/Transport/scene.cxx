@@ -3,6 +3,7 @@
 #include "Transport/fog.h"
 
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +21,25 @@ void require(bool condition, const char* otherwise)
   {
     throw std::invalid_argument(otherwise);
   }
+}
+
+/// Whether all numbers of a matrix and of its inverse are finite, with room for their products: a
+/// singular one has no inverse.
+bool is_invertible(const glm::dmat4& m)
+{
+  constexpr double most = 1e60;
+  const glm::dmat4 inverse = glm::inverse(m);
+  for (int column = 0; column < 4; ++column)
+  {
+    for (int row = 0; row < 4; ++row)
+    {
+      if (!(std::abs(m[column][row]) < most && std::abs(inverse[column][row]) < most))
+      {
+        return false;
+      }
+    }
+  }
+  return glm::determinant(m) != 0.0;
 }
 
 void validate(const Classification& c, const Grid& grid)
@@ -118,9 +138,17 @@ void Scene::validate() const
 {
   require(
     !this->volumes.empty() || has_fog(*this), "a scene needs a volume, or fog in composite mode");
+  require(is_invertible(this->camera.clip_from_world),
+    "the camera's matrix must be finite and invertible, its numbers below 1e60: place the camera apart from its focal point, and "
+    "the near plane before the far one");
   for (const Volume& volume : this->volumes)
   {
     brume::validate(volume);
+    const glm::dmat4 world_from_index = volume.world_from_data * volume.data_from_index;
+    require(is_invertible(volume.data_from_index) && is_invertible(world_from_index) &&
+        is_invertible(this->camera.clip_from_world * world_from_index),
+      "the matrices of a volume must be finite and invertible, their numbers below 1e60: its spacing and the scale of its prop "
+      "must not be 0");
     require(this->blend_mode == BlendMode::Composite || volume.meaning == ValueMeaning::Classified,
       "a density can only be drawn by emission and absorption: classify it");
   }

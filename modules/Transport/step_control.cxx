@@ -476,7 +476,7 @@ StepChoice choose_step(Marcher& marcher,
   }
   // `shorter` is the finest picture at hand: what another rule makes of a longer step is measured
   // against it.
-  if (follows_rule(scene, StepRule::Integrated) && step < 0.5 * longest)
+  if (!specks && follows_rule(scene, StepRule::Integrated) && step < 0.5 * longest)
   {
     const auto error_of = [&](double length) {
       return margin * counting(probe.changes(probe.march(StepRule::Integrated, length), shorter));

@@ -36,6 +36,8 @@ constexpr double usual_share_of_steps = 0.3;
 /// Strips of a picture that tell its time, and how much finer it is than it has to be.
 constexpr int rows_of_strip = 6;
 constexpr int most_strips = 4;
+/// Rays of the strips that have to meet something before there may be fewer.
+constexpr std::size_t least_met = 64;
 constexpr int longest_distance = 4; ///< pixels; below the rows of a strip
 /// What all halvings of the steps change, after the first and by what that changes.
 constexpr double rest_of_steps = 1.0 / 3.0;
@@ -52,6 +54,22 @@ bool is_lit(const Scene& scene)
   return scene.fog.enabled || std::any_of(scene.volumes.begin(),
                                 scene.volumes.end(),
                                 [](const Volume& v) { return v.medium.lit; });
+}
+
+/// How many rays of a picture met something.
+std::size_t met_by(const Film& film)
+{
+  std::size_t count = 0;
+  for (std::size_t pixel = 0; pixel < film.size(); ++pixel)
+  {
+    bool any = false;
+    for (int c = 0; c < 3; ++c)
+    {
+      any = any || film.transmittance[c][pixel] < 1.0f || film.radiance[c][pixel] > 0.0f;
+    }
+    count += any;
+  }
+  return count;
 }
 
 /// For each pixel the largest difference of a channel.
@@ -197,6 +215,17 @@ MarchForecast forecast_march(Marcher& marcher,
     rows += strip.film.height;
   }
   forecast.seconds *= static_cast<double>(height) / rows;
+  // Strips that hardly met anything tell nothing of what lies between fewer rays, and rays that meet
+  // nothing are soon done.
+  std::size_t met = 0;
+  for (const Strip& strip : strips)
+  {
+    met += met_by(strip.film);
+  }
+  if (met < least_met)
+  {
+    return forecast;
+  }
   if (!(room > 0.0) || !scene.surface_depth.empty() ||
       strips.front().film.height <= longest_distance || width <= 2 * longest_distance)
   {

@@ -54,7 +54,8 @@ struct MarchForecast
 /// Marches four strips of six rows of a picture of this size. Each pixel between others is compared
 /// with what is between those; where for all but the share `beyond` of the pixels that is within
 /// `room` (a fraction of white; 0: none), with what steps of half the length change, there may be
-/// fewer rays. Not where surfaces end rays: their outlines are sharp.
+/// fewer rays. Not where surfaces end rays: their outlines are sharp; nor where hardly any ray of the strips
+/// meets something.
 MarchForecast forecast_march(Marcher& marcher,
   const Scene& scene,
   const MarchSettings& settings,

@@ -196,6 +196,9 @@ inline Film by_mapper(const Case& what, vtkBrumeVolumeMapper* mapper)
 /// All of them. `paths` a pixel.
 inline std::vector<Way> ways(int paths = 256)
 {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  paths /= 8; // errors are by their own scatter
+#endif
   std::vector<Way> all;
   for (const auto& [name, shadows] : { std::pair{ "ray march (shadow rays)", ShadowMethod::Rays },
          { "ray march (light volume)", ShadowMethod::Volume },
