@@ -107,7 +107,7 @@ void vtkBrumeSmartVolumeMapper::March(Picture& picture)
   choices.Update(this->Internal->Marcher, this->Internal->Chosen, wanted);
   this->GetEffectPlan()->SetPlan(choices.GetPlan());
   const brume::Scene& scene = choices.GetScene();
-  const brume::MarchSettings& settings = choices.GetSettings();
+  brume::MarchSettings settings = choices.GetSettings();
 
   const double others =
     choices.GetEstimatedError() - choices.GetStepError() + picture.Choice.model_error;
@@ -136,6 +136,7 @@ void vtkBrumeSmartVolumeMapper::March(Picture& picture)
     const auto part = [&forecast](int size)
     { return (size + forecast.distance - 1) / forecast.distance; };
     brume::Film small(part(picture.Film.width), part(picture.Film.height));
+    settings.step = forecast.step;
     if (!render(small))
     {
       return;
@@ -153,6 +154,7 @@ void vtkBrumeSmartVolumeMapper::March(Picture& picture)
     else
     {
       error = choices.GetStepError(); // the strips missed something
+      settings.step = choices.GetSettings().step;
     }
   }
   if (!scaled)

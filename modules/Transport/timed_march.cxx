@@ -38,6 +38,7 @@ constexpr int rows_of_strip = 6;
 constexpr int most_strips = 4;
 /// Rays of the strips that have to meet something before there may be fewer.
 constexpr std::size_t least_met = 64;
+constexpr double long_from = 2.0;   ///< voxel edges
 constexpr int longest_distance = 4; ///< pixels; below the rows of a strip
 /// What all halvings of the steps change, after the first and by what that changes.
 constexpr double rest_of_steps = 1.0 / 3.0;
@@ -195,6 +196,21 @@ double all_but(std::vector<double> errors, double share)
   return errors[static_cast<std::size_t>(beyond)];
 }
 
+/// The errors of a picture with rays so many pixels apart, by strips of all pixels: of all but the
+/// share.
+double between(const std::vector<Film>& films,
+  const std::vector<Film>& finer,
+  int distance,
+  double beyond)
+{
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < films.size(); ++i)
+  {
+    add_errors(errors, films[i], finer[i], distance);
+  }
+  return all_but(std::move(errors), beyond);
+}
+
 }
 
 MarchForecast forecast_march(Marcher& marcher,
@@ -206,6 +222,7 @@ MarchForecast forecast_march(Marcher& marcher,
   double beyond)
 {
   MarchForecast forecast;
+  forecast.step = settings.step;
   forecast.error = std::numeric_limits<double>::quiet_NaN();
   std::vector<Strip> strips = strips_of(scene, width, height);
   int rows = 0;
@@ -215,8 +232,8 @@ MarchForecast forecast_march(Marcher& marcher,
     rows += strip.film.height;
   }
   forecast.seconds *= static_cast<double>(height) / rows;
-  // Strips that hardly met anything tell nothing of what lies between fewer rays, and rays that meet
-  // nothing are soon done.
+  // Strips that hardly met anything tell nothing of what lies between fewer rays, and rays that
+  // meet nothing are soon done.
   std::size_t met = 0;
   for (const Strip& strip : strips)
   {
@@ -231,40 +248,42 @@ MarchForecast forecast_march(Marcher& marcher,
   {
     return forecast;
   }
-  std::vector<Film> finer;
-  for (int distance = 2; distance <= longest_distance; distance *= 2)
+  // Long steps are off by other amounts from ray to ray, so that shorter ones may do with fewer
+  // rays.
+  const bool long_steps = settings.step >= long_from * smallest_voxel_edge(scene);
+  std::vector<Film> films;
+  for (Strip& strip : strips)
   {
-    std::vector<double> errors;
-    if (finer.empty())
-    {
-      for (const Strip& strip : strips)
-      {
-        add_errors(errors, strip.film, strip.film, distance);
-      }
-      if (all_but(std::move(errors), beyond) > room)
-      {
-        break;
-      }
-      MarchSettings half = settings;
-      half.step *= 0.5;
-      for (const Strip& strip : strips)
-      {
-        finer.emplace_back(width, strip.film.height);
-        marcher.render(strip.scene, half, finer.back());
-      }
-      errors.clear();
-    }
-    for (std::size_t i = 0; i < strips.size(); ++i)
-    {
-      add_errors(errors, strips[i].film, finer[i], distance);
-    }
-    const double error = all_but(std::move(errors), beyond);
-    if (error > room)
+    films.push_back(std::move(strip.film));
+  }
+  MarchSettings now = settings;
+  for (int attempt = 0; attempt < (long_steps ? 2 : 1) && forecast.distance == 1; ++attempt)
+  {
+    forecast.step = now.step;
+    now.step *= 0.5;
+    // Where not even this much is within, the shorter steps need not be marched.
+    const bool hopeful = between(films, films, 2, beyond) <= room;
+    if (!hopeful && !(long_steps && attempt == 0))
     {
       break;
     }
-    forecast.distance = distance;
-    forecast.error = error;
+    std::vector<Film> finer;
+    for (const Strip& strip : strips)
+    {
+      finer.emplace_back(width, films.front().height);
+      marcher.render(strip.scene, now, finer.back());
+    }
+    for (int distance = 2; hopeful && distance <= longest_distance; distance *= 2)
+    {
+      const double error = between(films, finer, distance, beyond);
+      if (error > room)
+      {
+        break;
+      }
+      forecast.distance = distance;
+      forecast.error = error;
+    }
+    films = std::move(finer);
   }
   return forecast;
 }

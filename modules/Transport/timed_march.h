@@ -46,6 +46,7 @@ struct MarchForecast
   double seconds = 0.0; ///< of the whole picture, without what is prepared
   /// Pixels between the rays of a picture that does as well: 1, 2 or 4.
   int distance = 1;
+  double step = 0.0; ///< that it takes: the one asked for, or half of that
   /// Of such a picture, scaled up: the error of 99.9 % of the pixels, of steps and between rays.
   /// NaN where the distance is 1.
   double error = 0.0;
@@ -54,8 +55,9 @@ struct MarchForecast
 /// Marches four strips of six rows of a picture of this size. Each pixel between others is compared
 /// with what is between those; where for all but the share `beyond` of the pixels that is within
 /// `room` (a fraction of white; 0: none), with what steps of half the length change, there may be
-/// fewer rays. Not where surfaces end rays: their outlines are sharp; nor where hardly any ray of the strips
-/// meets something.
+/// fewer rays. Steps of two voxel edges and more are tried with half of the length, too. Not where
+/// surfaces end rays: their outlines are sharp; nor where hardly any ray of the strips meets
+/// something.
 MarchForecast forecast_march(Marcher& marcher,
   const Scene& scene,
   const MarchSettings& settings,
@@ -64,8 +66,8 @@ MarchForecast forecast_march(Marcher& marcher,
   double room = 0.0,
   double beyond = 0.0);
 
-/// The error of such a picture, `film`, of all but the share `beyond` of the pixels, from some thousand
-/// rays all over it, marched with steps of half the length.
+/// The error of such a picture, `film`, of all but the share `beyond` of the pixels, from some
+/// thousand rays all over it, marched with steps of half the length.
 double error_of_scaled(Marcher& marcher,
   const Scene& scene,
   const MarchSettings& settings,
