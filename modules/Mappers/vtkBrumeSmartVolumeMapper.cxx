@@ -38,6 +38,9 @@ constexpr double latest_end = 1.1;
 constexpr double fewest_paths = 2.0;
 constexpr int most_paths = std::numeric_limits<int>::max();
 
+/// Steps that are long, in voxel edges: fewer rays may do with half of them.
+constexpr double long_from = 2.0;
+
 /// Rays along each side of the square that steps are chosen by: one for 64 pixels.
 constexpr int fewest_of_step_edge = 16;
 constexpr int most_of_step_edge = 64;
@@ -131,12 +134,13 @@ void vtkBrumeSmartVolumeMapper::March(Picture& picture)
   };
   picture.Predicted = forecast.seconds;
   bool scaled = false;
-  if (forecast.distance > 1)
+  settings.step = forecast.step;
+  // Where that is not within after all, with half the steps if they are long, then with more rays.
+  bool shorten = settings.step >= long_from * brume::smallest_voxel_edge(scene);
+  for (int distance = forecast.distance; distance > 1 && !scaled;)
   {
-    const auto part = [&forecast](int size)
-    { return (size + forecast.distance - 1) / forecast.distance; };
+    const auto part = [distance](int size) { return (size + distance - 1) / distance; };
     brume::Film small(part(picture.Film.width), part(picture.Film.height));
-    settings.step = forecast.step;
     if (!render(small))
     {
       return;
@@ -147,18 +151,23 @@ void vtkBrumeSmartVolumeMapper::March(Picture& picture)
     if (scaled)
     {
       picture.Film = brume::scaled(small, picture.Film.width, picture.Film.height);
-      picture.Distance = forecast.distance;
-      picture.Predicted /= forecast.distance * forecast.distance;
-      error = std::max(error, forecast.error);
+      picture.Distance = distance;
+      picture.Predicted /= distance * distance;
+    }
+    else if (shorten)
+    {
+      settings.step *= 0.5;
+      shorten = false;
     }
     else
     {
-      error = choices.GetStepError(); // the strips missed something
-      settings.step = choices.GetSettings().step;
+      distance /= 2;
     }
   }
-  if (!scaled)
+  if (!scaled) // or the strips missed something
   {
+    settings.step = choices.GetSettings().step;
+    error = choices.GetStepError();
     render(picture.Film);
   }
   picture.Prepared = before + march.seconds_prepare;
