@@ -61,6 +61,15 @@ struct vtkBrumeSmartVolumeMapper::Internals
   brume::Scene Traced; ///< as paths see it: lit by the environment itself
   std::shared_ptr<const brume::PlacedEnvironment> Environment;
   brume::Scene Chosen; ///< the scene with the octaves that were chosen
+
+  /// How far apart rays could be in the last picture that might have had fewer than pixels, and its
+  /// steps, for the steps that were chosen.
+  struct
+  {
+    double For = 0.0;
+    int Distance = 0;
+    double Step = 0.0;
+  } Last;
 };
 
 /// One picture in the making.
@@ -137,7 +146,15 @@ void vtkBrumeSmartVolumeMapper::March(Picture& picture)
   settings.step = forecast.step;
   // Where that is not within after all, with half the steps if they are long, then with more rays.
   bool shorten = settings.step >= long_from * brume::smallest_voxel_edge(scene);
-  for (int distance = forecast.distance; distance > 1 && !scaled;)
+  int distance = forecast.distance;
+  auto& last = this->Internal->Last;
+  if (last.For == choices.GetSettings().step && last.Distance <= distance)
+  {
+    distance = last.Distance; // what was too much for the last picture is not tried again
+    settings.step = last.Step;
+    shorten = false;
+  }
+  while (distance > 1 && !scaled)
   {
     const auto part = [distance](int size) { return (size + distance - 1) / distance; };
     brume::Film small(part(picture.Film.width), part(picture.Film.height));
@@ -169,6 +186,10 @@ void vtkBrumeSmartVolumeMapper::March(Picture& picture)
     settings.step = choices.GetSettings().step;
     error = choices.GetStepError();
     render(picture.Film);
+  }
+  if (forecast.distance > 1)
+  {
+    last = { choices.GetSettings().step, distance, settings.step };
   }
   picture.Prepared = before + march.seconds_prepare;
   if (march.rays == 0)
