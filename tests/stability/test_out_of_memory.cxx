@@ -60,6 +60,28 @@ void* operator new[](std::size_t bytes, std::align_val_t alignment)
 {
   return allocate(bytes, static_cast<std::size_t>(alignment));
 }
+// Of all forms, or a sanitizer's own would meet free().
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept
+try
+{
+  return allocate(bytes, 0);
+}
+catch (const std::bad_alloc&)
+{
+  return nullptr;
+}
+void* operator new[](std::size_t bytes, const std::nothrow_t&) noexcept
+{
+  return operator new(bytes, std::nothrow);
+}
+void operator delete(void* memory, const std::nothrow_t&) noexcept
+{
+  std::free(memory);
+}
+void operator delete[](void* memory, const std::nothrow_t&) noexcept
+{
+  std::free(memory);
+}
 void operator delete(void* memory) noexcept
 {
   std::free(memory);
