@@ -22,6 +22,8 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <cmath>
 #include <iostream>
 #include <memory>
 
@@ -110,6 +112,7 @@ nlohmann::ordered_json summary_of(std::vector<double> seconds)
 
 void run(const Options& options, CLI::App& command)
 {
+  const auto start = std::chrono::steady_clock::now();
   const bool alone = !options.screenshot.empty() || !options.play.empty(); // nobody needs to look
   if (options.scene.input.empty())
   {
@@ -139,6 +142,7 @@ void run(const Options& options, CLI::App& command)
   settings.arrangement = arrangement_of(options.arrangement);
   settings.scale = options.scale ? *options.scale : scale_of_display();
   settings.panel = !options.no_panel;
+  settings.more_keys = ViewWindow::keys();
   nlohmann::ordered_json scene = scene_of(command);
   if (options.scene.quiet)
   {
@@ -152,6 +156,7 @@ void run(const Options& options, CLI::App& command)
   place.height = options.window[1];
   place.title = viewer.volume_scene().input.name + " - Brume";
   place.folder = options.folder;
+  place.start = start;
   ViewWindow window(viewer, place);
   if (!options.record.empty())
   {

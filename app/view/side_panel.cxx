@@ -46,6 +46,10 @@ public:
     switch (this->Model.page)
     {
       case ControlPage::Light:
+        this->ball();
+        this->sliders();
+        this->figures();
+        break;
       case ControlPage::Matter:
         this->sliders();
         this->figures();
@@ -134,6 +138,47 @@ private:
       this->spot(HotSpot::Kind::Control, { this->Left, this->Y, this->Inner, this->M.row }, index);
     }
     this->Y += this->M.row;
+  }
+
+  /// A white ball in the sun's light, with the sun as a dot.
+  void ball()
+  {
+    const int radius = std::min(4 * this->M.text, this->Inner / 3);
+    if (!this->fits(2 * radius + this->M.margin))
+    {
+      return;
+    }
+    const int cx = this->Left + this->Inner / 2;
+    const int cy = this->Y + radius;
+    const Triple& sun = this->Model.sun_seen;
+    const bool shines = sun != Triple{ 0.0, 0.0, 0.0 };
+    for (int y = -radius; y <= radius; ++y)
+    {
+      for (int x = -radius; x <= radius; ++x)
+      {
+        const double u = double(x) / radius;
+        const double v = -double(y) / radius;
+        const double rest = 1.0 - u * u - v * v;
+        if (rest < 0.0)
+        {
+          continue;
+        }
+        const double cosine = u * sun[0] + v * sun[1] + std::sqrt(rest) * sun[2];
+        const double light = shines ? 0.12 + 0.78 * std::sqrt(std::max(cosine, 0.0)) : 0.2;
+        const auto grey = static_cast<unsigned char>(std::lround(255.0 * light));
+        this->Sheet.fill(cx + x, cy + y, 1, 1, { grey, grey, grey });
+      }
+    }
+    if (shines)
+    {
+      const int dot = std::max(6, this->M.text / 2);
+      const int x = cx + static_cast<int>(std::lround(sun[0] * radius));
+      const int y = cy - static_cast<int>(std::lround(sun[1] * radius));
+      this->Sheet.fill(x - dot / 2 - 1, y - dot / 2 - 1, dot + 2, dot + 2, palette::page);
+      this->Sheet.fill(x - dot / 2, y - dot / 2, dot, dot, sun[2] >= 0.0 ? warm : palette::frame);
+    }
+    this->spot(HotSpot::Kind::Ball, { cx - radius, cy - radius, 2 * radius + 1, 2 * radius + 1 }, 0);
+    this->Y += 2 * radius + 2 * this->M.margin;
   }
 
   std::string unit_of(const Control& control) const

@@ -30,6 +30,8 @@ struct PanelModel
   std::vector<std::pair<std::string, std::string>> figures; ///< names and values, at the page's end
   std::string hint;                ///< a line at the foot
   int point = -1;                  ///< of the function, that is held
+  /// Toward the sun as the camera sees it: x to the right, y up, z toward the eye; 0, 0, 0 for none.
+  Triple sun_seen{ 0.0, 0.0, 0.0 };
 };
 
 /// A place of the panel that does something.
@@ -43,6 +45,7 @@ struct HotSpot
     Effect,  ///< name: of the effect whose force is switched
     Curve,   ///< the transfer function's field
     Shade,   ///< gradient shading on or off
+    Ball,    ///< the sun's direction, dragged over a ball in its light
   };
   Kind kind;
   Box box; ///< in pixels of the panel

@@ -78,10 +78,8 @@ struct ViewWindow::Internals
   vtkNew<vtkRenderer> Page; ///< what no tile covers
   std::vector<std::unique_ptr<ShownTile>> Tiles;
   ViewTimes Times;
-  Clock::time_point Made = Clock::now();
-  Clock::time_point LastShown = Made;
-  Clock::time_point LastFlick = Made;
-  Clock::time_point LastTold = Made;
+  Clock::time_point LastFlick = Clock::now();
+  Clock::time_point LastTold = LastFlick;
   std::optional<Clock::time_point> Event; ///< the first that is not shown yet
   vtkMTimeType CameraTime = 0;
   int Timer = -1;
@@ -234,9 +232,8 @@ struct ViewWindow::Internals
     this->Window->Render();
     if (this->Times.first_picture == 0.0 && this->View.has_pictures())
     {
-      this->Times.first_picture = seconds_since(this->Made);
+      this->Times.first_picture = seconds_since(this->Set.start);
     }
-    this->LastShown = Clock::now();
     this->Presenting = false;
   }
 
@@ -526,6 +523,15 @@ ViewWindow::ViewWindow(Viewer& viewer, const Settings& settings)
     in.View.resize(size[0], size[1]);
     in.show();
   }
+}
+
+std::vector<std::pair<std::string, std::string>> ViewWindow::keys()
+{
+  return { { "Ctrl s", "save the scene, as brume render takes it" }, { "F2", "save the window as PNG" },
+    { "F3", "save the first viewport's light as EXR" }, { "F4", "record a turn" },
+    { "F5", "read the input again" }, { "F6", "record all time steps" }, { "q", "quit" },
+    { "Mouse", "left turns, middle shifts, right or wheel comes nearer" },
+    { "Panel", "drag a bar; right click: as it was at first" } };
 }
 
 ViewWindow::~ViewWindow()

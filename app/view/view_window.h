@@ -3,8 +3,10 @@
 
 #include "viewer.h"
 
+#include <chrono>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 class vtkRenderWindow;
@@ -16,7 +18,7 @@ namespace brume::app
 /// How long the window took to answer, in seconds.
 struct ViewTimes
 {
-  double first_picture = 0.0;      ///< from the window's making to the first picture on it
+  double first_picture = 0.0;      ///< from Settings::start to the first picture on it
   std::vector<double> responses;   ///< from an event to its picture on the window, one a picture
   std::vector<double> interruptions; ///< from asking a refinement to end to its end
 };
@@ -30,7 +32,11 @@ public:
     int height = 760;
     std::string title = "Brume";
     std::string folder = "."; ///< where pictures and scenes are saved
+    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
   };
+
+  /// Keys that the window takes itself, for people, and what they do.
+  static std::vector<std::pair<std::string, std::string>> keys();
 
   /// Needs a display (private_display.h). The viewer must outlive the window.
   ViewWindow(Viewer& viewer, const Settings& settings);

@@ -114,6 +114,8 @@ void Viewer::open(const ordered_json& scene, bool keep_camera)
   {
     volume.camera->DeepCopy(this->Volume.camera);
   }
+  this->FirstCamera = vtkSmartPointer<vtkCamera>::New();
+  this->FirstCamera->DeepCopy(volume.camera);
   this->Scene = this->First = scene;
   this->Parsed = parsed;
   this->Volume = std::move(volume);
@@ -206,8 +208,17 @@ void Viewer::set(const ordered_json& scene)
   this->give_scene();
 }
 
+void Viewer::reset_camera()
+{
+  this->Volume.camera->DeepCopy(this->FirstCamera);
+  this->camera_moved();
+}
+
 void Viewer::camera_moved()
 {
+  // The ball shows the sun as the camera sees it.
+  this->PanelChanged = this->PanelChanged ||
+    (this->Page == ControlPage::Light && this->Volume.options.medium.sun_direction);
   this->Stale = true;
 }
 
@@ -333,6 +344,7 @@ PanelModel Viewer::panel_model()
   const auto own = std::find_if(
     this->Panes.begin(), this->Panes.end(), [](const Pane& pane) { return is_own(pane.kind); });
   model.shot = own != this->Panes.end() ? &own->painter->shot() : nullptr;
+  model.sun_seen = this->sun_seen();
   const bool density = this->Volume.options.density();
   const Input& input = this->Volume.input;
   if (!density)
@@ -431,7 +443,9 @@ void Viewer::tile_pictures()
   {
     const int width = this->Boxes.panel.empty() ? this->Window[0] : this->Boxes.panel.x;
     this->Tiles.resize(1);
-    this->put(0, { 0, 0, width, this->Window[1] }, table_of(keys(), width, this->Window[1], metrics),
+    std::vector<std::pair<std::string, std::string>> rows = keys();
+    rows.insert(rows.end(), this->Set.more_keys.begin(), this->Set.more_keys.end());
+    this->put(0, { 0, 0, width, this->Window[1] }, table_of(rows, width, this->Window[1], metrics),
       true);
     return;
   }

@@ -53,6 +53,8 @@ public:
     Arrangement arrangement = Arrangement::SideBySide;
     double scale = 1.0;          ///< of lettering and panel
     bool panel = true;
+    /// Keys of who shows it, for the page of help.
+    std::vector<std::pair<std::string, std::string>> more_keys;
     double draft_seconds = 0.04; ///< that pictures of all viewports take together while something moves
   };
 
@@ -83,6 +85,8 @@ public:
   bool key(const std::string& symbol);
   /// All keys that key() knows, for people, and what they do.
   static std::vector<std::pair<std::string, std::string>> keys();
+  /// The camera as it was at first.
+  void reset_camera();
   /// The camera was moved by who has it.
   void camera_moved();
   /// The time has come to show the other picture (Arrangement::Flicker).
@@ -123,6 +127,8 @@ private:
   void changed();
   ControlScene control_scene() const;
   PanelModel panel_model();
+  Triple sun_seen() const;
+  void turn_sun(int x, int y);
   void turn(const Control& control, double place);
   void nudge(const Control& control, double by);
   void set_function(const TransferFunction& function);
@@ -150,6 +156,7 @@ private:
   nlohmann::ordered_json First;  ///< as it was opened
   std::optional<ParsedScene> Parsed;
   VolumeScene Volume;
+  vtkSmartPointer<vtkCamera> FirstCamera; ///< as it was opened
   std::vector<Pane> Panes;
   std::array<int, 2> Window{ 1280, 760 };
   Layout Boxes;
@@ -173,6 +180,7 @@ private:
   {
     Nothing,
     Control,
+    Ball,
     Point,
     Divider,
   };

@@ -7,6 +7,9 @@
 #include "vtkCamera.h"
 #include "vtkVolume.h"
 
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -70,6 +73,7 @@ const std::vector<Viewer::Action>& Viewer::actions()
       [](Viewer& v) { v.arrange(Arrangement::Difference); } },
     { "p", "go on with path tracing, or stop at the ray march",
       [](Viewer& v) { v.switch_paths(); } },
+    { "r", "the view as it was at first", [](Viewer& v) { v.reset_camera(); } },
     { "space", "pause refinement, and go on",
       [](Viewer& v)
       {
@@ -202,6 +206,10 @@ bool Viewer::press_panel(int x, int y, bool right_button, bool twice)
       this->Hold = Held::Control;
       this->drag(px, py);
       break;
+    case HotSpot::Kind::Ball:
+      this->Hold = Held::Ball;
+      this->turn_sun(px, py);
+      break;
     case HotSpot::Kind::Preset:
       this->step_preset(spot->index);
       break;
@@ -262,6 +270,9 @@ bool Viewer::drag(int x, int y)
         double(x - left) / std::max(box.width - 1, 1));
       return true;
     }
+    case Held::Ball:
+      this->turn_sun(x, y);
+      return true;
     case Held::Point:
     {
       const CurveField field = curve_field(this->panel_model(), this->HeldSpot.box);
@@ -297,6 +308,69 @@ void Viewer::flick()
     this->SecondShown = !this->SecondShown;
     this->PicturesChanged = true;
   }
+}
+
+namespace
+{
+
+/// Right, up and toward the eye of a camera, in the world.
+struct Axes
+{
+  glm::dvec3 right, up, eye;
+};
+Axes axes_of(vtkCamera* camera)
+{
+  double direction[3], up[3];
+  camera->GetDirectionOfProjection(direction);
+  camera->GetViewUp(up);
+  Axes axes;
+  axes.eye = -glm::normalize(glm::dvec3(direction[0], direction[1], direction[2]));
+  axes.right = glm::normalize(glm::cross(glm::dvec3(up[0], up[1], up[2]), axes.eye));
+  axes.up = glm::cross(axes.eye, axes.right);
+  return axes;
+}
+
+}
+
+Triple Viewer::sun_seen() const
+{
+  const auto& direction = this->Volume.options.medium.sun_direction;
+  if (!direction)
+  {
+    return { 0.0, 0.0, 0.0 };
+  }
+  const Axes axes = axes_of(this->Volume.camera);
+  const glm::dvec3 sun =
+    glm::normalize(glm::dvec3((*direction)[0], (*direction)[1], (*direction)[2]));
+  return { glm::dot(sun, axes.right), glm::dot(sun, axes.up), glm::dot(sun, axes.eye) };
+}
+
+void Viewer::turn_sun(int x, int y)
+{
+  const Box& ball = this->HeldSpot.box;
+  const double radius = 0.5 * (ball.width - 1);
+  double u = (x - this->Boxes.panel.x - ball.x - radius) / radius;
+  double v = -(y - this->Boxes.panel.y - ball.y - radius) / radius;
+  // Beyond the rim the sun goes on behind the ball.
+  const double length = std::sqrt(u * u + v * v);
+  double front = 0.0;
+  if (length > 1.0)
+  {
+    const double beyond = std::min(2.0 - length, 1.0);
+    const double r = std::max(beyond, 0.0);
+    u *= r / length;
+    v *= r / length;
+    front = -std::sqrt(std::max(1.0 - r * r, 0.0));
+  }
+  else
+  {
+    front = std::sqrt(1.0 - length * length);
+  }
+  const Axes axes = axes_of(this->Volume.camera);
+  const glm::dvec3 sun = u * axes.right + v * axes.up + front * axes.eye;
+  ordered_json scene = this->Scene;
+  scene["sun-direction"] = { sun.x, sun.y, sun.z };
+  this->set(scene);
 }
 
 void Viewer::turn(const Control& control, double place)
