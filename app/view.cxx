@@ -182,6 +182,7 @@ void run(const Options& options, CLI::App& command)
     times["first_picture_seconds"] = window.times().first_picture;
     times["event_to_picture"] = summary_of(window.times().responses);
     times["interruption"] = summary_of(window.times().interruptions);
+    times["refinement_without_a_look_at_input"] = summary_of(window.times().longest_deaf);
     write_atomically(options.times, times.dump(2) + "\n");
   }
 }

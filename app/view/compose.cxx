@@ -122,7 +122,7 @@ Bitmap table_of(const std::vector<std::pair<std::string, std::string>>& rows, in
   }
   first += 2 * metrics.margin;
   // As many columns as it takes, if there is room for them.
-  const int least = first + std::min(second, 18 * metrics.text) + 2 * metrics.margin;
+  const int least = first + std::min(second, 13 * metrics.text) + 2 * metrics.margin;
   const int per_column = std::max((height - 2 * metrics.margin) / metrics.line, 1);
   const int needed = (static_cast<int>(rows.size()) + per_column - 1) / per_column;
   const int columns = std::clamp(needed, 1, std::max(width / std::max(least, 1), 1));

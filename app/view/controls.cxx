@@ -14,9 +14,6 @@ namespace
 
 using nlohmann::ordered_json;
 
-/// The sun of a scene that has none yet: over the left shoulder of who looks along +y.
-constexpr SunAngles first_sun{ -130.0, 35.0 };
-
 template <int Numerator, int Denominator = 1>
 double constant(const ControlScene&)
 {
@@ -68,7 +65,7 @@ void set_sun(ordered_json& scene, const ControlScene& s, const SunAngles& angles
 
 SunAngles sun_of(const ControlScene& s)
 {
-  return sun_angles(s.options->medium).value_or(first_sun);
+  return sun_angles(s.options->medium).value_or(s.first_sun);
 }
 
 std::optional<double> positive(double value)
@@ -125,7 +122,7 @@ std::vector<Control> make_controls()
         scale_colour(j, "sun-irradiance", s.options->medium.sun_irradiance, v);
         if (!s.options->medium.sun_direction)
         {
-          set_sun(j, s, first_sun);
+          set_sun(j, s, s.first_sun);
         }
       },
       of_composite },
@@ -269,15 +266,17 @@ double value_at(const Control& control, const ControlScene& scene, double place)
 
 std::optional<SunAngles> sun_angles(const MediumOptions& medium)
 {
-  if (!medium.sun_direction)
-  {
-    return std::nullopt;
-  }
+  return medium.sun_direction
+    ? std::optional<SunAngles>(sun_angles(*medium.sun_direction, medium.up))
+    : std::nullopt;
+}
+
+SunAngles sun_angles(const Triple& direction, const Triple& up)
+{
   glm::dvec3 east, north, zenith;
-  horizon(medium.up, east, north, zenith);
-  const Triple& d = *medium.sun_direction;
-  const glm::dvec3 sun = glm::normalize(glm::dvec3(d[0], d[1], d[2]));
-  return SunAngles{ degrees(std::atan2(glm::dot(sun, north), glm::dot(sun, east))),
+  horizon(up, east, north, zenith);
+  const glm::dvec3 sun = glm::normalize(glm::dvec3(direction[0], direction[1], direction[2]));
+  return { degrees(std::atan2(glm::dot(sun, north), glm::dot(sun, east))),
     degrees(std::asin(std::clamp(glm::dot(sun, zenith), -1.0, 1.0))) };
 }
 

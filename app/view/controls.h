@@ -13,6 +13,13 @@
 namespace brume::app
 {
 
+/// The scene's sun: degrees around `up` and above the horizon.
+struct SunAngles
+{
+  double azimuth = 0.0;
+  double elevation = 0.0;
+};
+
 /// What a control needs to know besides the scene's keys.
 struct ControlScene
 {
@@ -20,6 +27,7 @@ struct ControlScene
   double exposure = 0.0;              ///< stops
   double size = 1.0;                  ///< longest edge of the volume, world units
   double opacity_unit_distance = 1.0; ///< world units, as it is drawn
+  SunAngles first_sun;                ///< of a scene that has none yet
 };
 
 enum class ControlPage
@@ -66,13 +74,9 @@ const std::vector<Control>& controls();
 double place_of(const Control& control, const ControlScene& scene, double value);
 double value_at(const Control& control, const ControlScene& scene, double place);
 
-/// The scene's sun: degrees around `up` and above the horizon; empty where there is none.
-struct SunAngles
-{
-  double azimuth = 0.0;
-  double elevation = 0.0;
-};
+/// The scene's sun; empty where there is none.
 std::optional<SunAngles> sun_angles(const MediumOptions& medium);
+SunAngles sun_angles(const Triple& direction, const Triple& up);
 Triple sun_direction(const SunAngles& angles, const Triple& up);
 
 }

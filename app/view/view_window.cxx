@@ -284,8 +284,12 @@ struct ViewWindow::Internals
   {
     std::optional<Clock::time_point> asked;
     const auto start = Clock::now();
+    auto looked = start;
+    double deaf = 0.0;
     const KeepGoing go = [&](double done)
     {
+      deaf = std::max(deaf, seconds_since(looked));
+      looked = Clock::now();
       if (!asked && (this->input_waits() || InterruptionWatch::requested()))
       {
         asked = Clock::now();
@@ -300,6 +304,7 @@ struct ViewWindow::Internals
       return !asked;
     };
     const bool better = this->View.refine(go);
+    this->Times.longest_deaf.push_back(std::max(deaf, seconds_since(looked)));
     if (asked)
     {
       this->Times.interruptions.push_back(seconds_since(*asked));

@@ -21,6 +21,8 @@ struct ViewTimes
   double first_picture = 0.0;      ///< from Settings::start to the first picture on it
   std::vector<double> responses;   ///< from an event to its picture on the window, one a picture
   std::vector<double> interruptions; ///< from asking a refinement to end to its end
+  /// Of each refinement, the longest time in which it did not look for what the user does.
+  std::vector<double> longest_deaf;
 };
 
 class ViewWindow

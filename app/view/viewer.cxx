@@ -327,6 +327,7 @@ ControlScene Viewer::control_scene() const
                             : this->Volume.input.image->GetBounds(bounds);
   scene.size = std::max({ bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4] });
   scene.size = scene.size > 0.0 ? scene.size : 1.0;
+  scene.first_sun = this->first_sun();
   scene.opacity_unit_distance = this->Volume.opacity_unit_distance;
   return scene;
 }

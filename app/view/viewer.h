@@ -127,6 +127,7 @@ private:
   void changed();
   ControlScene control_scene() const;
   PanelModel panel_model();
+  SunAngles first_sun() const; ///< over the left shoulder of who looks
   Triple sun_seen() const;
   void turn_sun(int x, int y);
   void turn(const Control& control, double place);

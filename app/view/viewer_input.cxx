@@ -47,7 +47,7 @@ std::string readable(const std::string& symbol)
 struct Viewer::Action
 {
   const char* symbol; ///< X's name of the key
-  const char* meaning;
+  const char* meaning; ///< "" where another action's line tells it
   std::function<void(Viewer&)> run;
 };
 
@@ -61,10 +61,10 @@ const std::vector<Viewer::Action>& Viewer::actions()
         v.Tiles.clear();
         v.PicturesChanged = v.PanelChanged = true;
       } },
-    { "1", "one viewport", [](Viewer& v) { v.show_viewports(1); } },
-    { "2", "two viewports", [](Viewer& v) { v.show_viewports(2); } },
-    { "3", "three viewports", [](Viewer& v) { v.show_viewports(3); } },
-    { "4", "four viewports", [](Viewer& v) { v.show_viewports(4); } },
+    { "1", "one viewport; 2, 3, 4: as many", [](Viewer& v) { v.show_viewports(1); } },
+    { "2", "", [](Viewer& v) { v.show_viewports(2); } },
+    { "3", "", [](Viewer& v) { v.show_viewports(3); } },
+    { "4", "", [](Viewer& v) { v.show_viewports(4); } },
     { "m", "another mapper in the last viewport", [](Viewer& v) { v.next_mapper(); } },
     { "s", "side by side", [](Viewer& v) { v.arrange(Arrangement::SideBySide); } },
     { "w", "wipe: drag the line between two mappers", [](Viewer& v) { v.arrange(Arrangement::Wipe); } },
@@ -138,13 +138,23 @@ std::vector<std::pair<std::string, std::string>> Viewer::keys()
   std::vector<std::pair<std::string, std::string>> all;
   for (const Action& action : actions())
   {
-    all.emplace_back(readable(action.symbol), action.meaning);
+    if (*action.meaning)
+    {
+      all.emplace_back(readable(action.symbol), action.meaning);
+    }
   }
   for (const Control& control : controls())
   {
-    if (*control.less)
+    const std::string both = readable(control.less) + "  " + readable(control.more);
+    const auto same =
+      std::find_if(all.begin(), all.end(), [&](const auto& row) { return row.first == both; });
+    if (same != all.end())
     {
-      all.emplace_back(readable(control.less) + "  " + readable(control.more), control.name);
+      same->second += std::string(" or ") + control.name;
+    }
+    else if (*control.less)
+    {
+      all.emplace_back(both, control.name);
     }
   }
   return all;
@@ -332,6 +342,13 @@ Axes axes_of(vtkCamera* camera)
 
 }
 
+SunAngles Viewer::first_sun() const
+{
+  const Axes axes = axes_of(this->Volume.camera);
+  const glm::dvec3 sun = -0.6 * axes.right + 0.6 * axes.up + 0.7 * axes.eye;
+  return sun_angles(Triple{ sun.x, sun.y, sun.z }, this->Volume.options.medium.up);
+}
+
 Triple Viewer::sun_seen() const
 {
   const auto& direction = this->Volume.options.medium.sun_direction;
@@ -468,7 +485,8 @@ void Viewer::switch_light()
   }
   else
   {
-    const Triple d = sun_direction({ -130.0, 35.0 }, this->Volume.options.medium.up);
+    const Triple d =
+      sun_direction(this->control_scene().first_sun, this->Volume.options.medium.up);
     scene["sun-direction"] = { d[0], d[1], d[2] };
   }
   this->set(scene);

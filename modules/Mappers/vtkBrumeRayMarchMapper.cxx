@@ -177,6 +177,8 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& whole, brume::Film& film)
   wanted.coarse = this->ImageSampleDistanceInUse > 1.0;
   wanted.threads = this->NumberOfThreads;
   brume::MarchChoices& choices = this->Internal->Choices;
+  // Choices are made by many small renders, and may take longer than the picture.
+  this->Internal->Marcher.set_watch([this] { return this->TellProgress(0.0); });
   choices.Update(this->Internal->Marcher, whole, wanted);
   this->GetEffectPlan()->SetPlan(choices.GetPlan());
   const brume::Scene& scene = choices.GetScene();

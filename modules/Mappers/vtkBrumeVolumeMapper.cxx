@@ -9,6 +9,7 @@
 #include "volume_group.h"
 #include "vtkBrumeFilmBlender.h"
 
+#include "Transport/marcher.h"
 #include "Transport/film.h"
 
 #include "vtkBrumeEffectPlan.h"
@@ -356,6 +357,11 @@ bool vtkBrumeVolumeMapper::RenderUpdated(brume::Scene& scene, brume::Film& film)
     {
       brume::apply_window_level(film, this->FinalColorWindow, this->FinalColorLevel);
     }
+  }
+  catch (const brume::Marcher::Interrupted&)
+  {
+    // Before the picture was begun: what was prepared is kept, and made whole by the next render.
+    this->Statistics = R"({"completed": false})";
   }
   catch (const std::invalid_argument& error)
   {
