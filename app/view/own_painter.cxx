@@ -48,7 +48,7 @@ double seconds_since(Clock::time_point start)
 constexpr double draft_tolerance = 0.03;
 /// Where the user says no number, paths go on for as many as a patient one waits for.
 constexpr int most_paths = 1 << 20;
-constexpr int first_paths = 4; ///< of a pixel, before a picture by paths is shown
+constexpr int paths_at_once = 8; ///< of a pixel, from one picture to the next
 
 /// A mapper that draws films of the scene: asked whether to go on, its errors kept.
 class FilmMaker
@@ -220,9 +220,6 @@ struct OwnPainter::Internals
   bool add_paths(int width, int height, const KeepGoing& go)
   {
     auto* paths = static_cast<vtkBrumePathTraceMapper*>(this->Best->mapper());
-    const int most = this->Scene.options.paths.samples_per_pixel.value_or(most_paths);
-    paths->SetSamplesPerPixel(most);
-    paths->SetSamplesPerRender(std::clamp(this->Paths, first_paths, 64));
     const Shot before = this->Shown;
     if (!this->draw(*this->Best, width, height, false, go))
     {
@@ -233,7 +230,7 @@ struct OwnPainter::Internals
     this->Shown.seconds = this->SecondsOfPaths;
     this->Paths = paths->GetRenderedSamplesPerPixel();
     this->Shown.state = std::to_string(this->Paths) + " paths a pixel";
-    this->Finished = this->Paths >= most || this->Statistics.value("tolerance_met", false);
+    this->Finished = this->Paths >= paths->GetSamplesPerPixel() || this->Statistics.value("tolerance_met", false);
     return true;
   }
 };
@@ -257,10 +254,14 @@ void OwnPainter::set_scene(const VolumeScene& scene)
   { set_up(in.Scene, static_cast<vtkBrumeRayMarchMapper*>(maker.mapper())); };
   set_up_march(in.March);
   set_up_march(in.Drafts);
+  static_cast<vtkBrumeRayMarchMapper*>(in.Drafts.mapper())->ReusePlanOn();
   in.Drafts.mapper()->SetTolerance(std::max(draft_tolerance, scene.options.tolerance));
   if (in.Kind == MapperKind::PathTrace)
   {
-    set_up(in.Scene, static_cast<vtkBrumePathTraceMapper*>(in.Best->mapper()));
+    auto* paths = static_cast<vtkBrumePathTraceMapper*>(in.Best->mapper());
+    set_up(in.Scene, paths);
+    paths->SetSamplesPerPixel(scene.options.paths.samples_per_pixel.value_or(most_paths));
+    paths->SetSamplesPerRender(paths_at_once);
   }
   else if (in.Kind == MapperKind::Smart)
   {

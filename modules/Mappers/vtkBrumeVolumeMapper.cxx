@@ -224,8 +224,11 @@ const brume::Scene* vtkBrumeVolumeMapper::UpdateScene(
 
 void vtkBrumeVolumeMapper::SetSurfaceDepth(std::vector<float> depth)
 {
-  this->Internal->SurfaceDepth = std::move(depth);
-  this->Modified();
+  if (depth != this->Internal->SurfaceDepth)
+  {
+    this->Internal->SurfaceDepth = std::move(depth);
+    this->Modified();
+  }
 }
 
 brume::Scene* vtkBrumeVolumeMapper::WithSurfaceDepth(brume::Scene* scene, int width, int height)
