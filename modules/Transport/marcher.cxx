@@ -108,6 +108,44 @@ double diagonal(const Volume& volume)
   return longest;
 }
 
+/// A ray takes no more steps than this: beyond, rounding would cost more than they gain.
+constexpr double most_steps = 1 << 16;
+
+/// The step that the longest of the picture's rays takes most_steps of. 0, and no ray is looked at,
+/// where no ray through the grids could take more of `wanted`.
+double shortest_step(const Scene& scene, const RayMaker& rays, double wanted)
+{
+  double longest = 0.0;
+  for (const Volume& volume : scene.volumes)
+  {
+    longest = std::max(longest, diagonal(volume));
+  }
+  if (longest <= most_steps * wanted)
+  {
+    return 0.0;
+  }
+  longest = 0.0;
+  std::vector<RayStretch> stretches;
+  for (int y = 0; y < rays.height(); ++y)
+  {
+    for (int x = 0; x < rays.width(); ++x)
+    {
+      rays.stretches(x, y, stretches);
+      for (std::size_t k = 0; !stretches.empty() && k < scene.volumes.size(); ++k)
+      {
+        double part = 0.0;
+        for (const RayStretch& stretch : stretches)
+        {
+          part += stretch.volumes >> k & 1u ? stretch.end - stretch.begin : 0.0;
+        }
+        const double length = part * rays.way(x, y, k).length;
+        longest = std::max(longest, std::isfinite(length) ? length : 0.0);
+      }
+    }
+  }
+  return longest / most_steps;
+}
+
 /// Of all volumes, in their data's units.
 double smallest_voxel_edge(const std::vector<Volume>& volumes)
 {
@@ -359,23 +397,20 @@ MarchStatistics Marcher::render(
     settings.threads > 0 ? settings.threads : tbb::info::default_concurrency();
   tbb::task_arena arena(threads);
   double step = settings.step;
-  double shortest = 0.0;
   const bool by_cells = surfaces || scene.blend_mode == BlendMode::MaximumIntensity ||
                         scene.blend_mode == BlendMode::MinimumIntensity;
   if (by_cells)
   {
     step = smallest_voxel_edge(scene.volumes);
   }
-  for (const Volume& volume : scene.volumes)
-  {
-    shortest = std::max(shortest, diagonal(volume) / double(1 << 16));
-  }
-  step = std::max(step, shortest);
 
   const auto start_prepare = std::chrono::steady_clock::now();
   const Integrator integrator = find_integrator(scene, settings.absorption);
   this->Kept->update(scene, threads);
   const RayMaker rays(scene, film.width, film.height);
+  const double shortest = shortest_step(
+    scene, rays, step / (1 << std::clamp(settings.refinements, 0, most_refinements)));
+  step = std::max(step, shortest);
   std::vector<VolumeTask> volumes;
   double brightest = 1.0;
   std::size_t visible_bricks = 0;

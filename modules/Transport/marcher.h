@@ -55,7 +55,8 @@ struct MarchSettings
   StepRule rule = StepRule::Midpoint;
   /// Length of a step, in the data's units; > 0. Largest and smallest values, isosurfaces and slices
   /// are found cell by cell, whatever the step. The last step of a ray is cut at the grid's end.
-  /// Rays of more than 2¹⁶ steps get longer ones: beyond, rounding would cost more than they gain.
+  /// Longer for all where one of the picture's rays would have more than 2¹⁶ of them in a volume:
+  /// beyond, rounding would cost more than they gain.
   double step = 1.0;
   /// The largest error of a pixel, as a fraction of white, that may be made by ending rays early;
   /// ≥ 0. A ray is left when all that is behind could not change its pixel by more.

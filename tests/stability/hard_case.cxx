@@ -64,6 +64,10 @@ HardCase::~HardCase()
   EXPECT_FALSE(this->Figures.empty()) << this->Name << ": nothing was measured";
   for (const auto& other : cases())
   {
+    if (other.contains("introduction"))
+    {
+      continue;
+    }
     EXPECT_FALSE(other["group"] == this->Group && other["name"] == this->Name)
       << this->Name << ": two cases of this name";
   }
@@ -81,7 +85,23 @@ HardCase::~HardCase()
       { "bound", figure.bound },
       { "counted", figure.counted } });
   }
+  for (const Told& other : this->Others)
+  {
+    nlohmann::ordered_json figures = nlohmann::ordered_json::array();
+    for (const Measured& figure : other.figures)
+    {
+      figures.push_back({ { "unit", figure.unit }, { "value", figure.value } });
+    }
+    one["others"].push_back(
+      { { "by", other.by }, { "told", figures }, { "words", other.words } });
+  }
   cases().push_back(std::move(one));
+  write_cases();
+}
+
+void introduce_group(const std::string& group, const std::string& text)
+{
+  cases().push_back({ { "group", group }, { "introduction", text } });
   write_cases();
 }
 
@@ -153,6 +173,39 @@ HardCase& HardCase::refuses(const std::string& message,
   EXPECT_TRUE(named) << this->Name << ", " << by << ": \"" << message << "\" does not name \""
                      << part << '"';
   return this->holds(named, "refused, with the reason", by);
+}
+
+HardCase::Told& HardCase::told_by(const std::string& by)
+{
+  for (Told& known : this->Others)
+  {
+    if (known.by == by)
+    {
+      return known;
+    }
+  }
+  this->Others.push_back({ by, {}, {} });
+  return this->Others.back();
+}
+
+HardCase& HardCase::tell(double value, const std::string& unit, const std::string& by)
+{
+  for (Measured& known : this->told_by(by).figures)
+  {
+    if (known.unit == unit)
+    {
+      known.value = value <= known.value ? known.value : value; // a NaN wins
+      return *this;
+    }
+  }
+  this->told_by(by).figures.push_back({ unit, value, 0.0, false });
+  return *this;
+}
+
+HardCase& HardCase::tell(const std::string& words, const std::string& by)
+{
+  this->told_by(by).words = words;
+  return *this;
 }
 
 }

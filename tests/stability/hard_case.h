@@ -45,6 +45,14 @@ public:
   /// Expects that `message`, an error's text, names `part`: what is refused must say why.
   HardCase& refuses(const std::string& message, const std::string& part, const std::string& by);
 
+  /// Tells a figure of another renderer, `by`, on the same case. It has no bound: it stands beside
+  /// what was measured. Of several of one unit the largest is told, or NaN.
+  HardCase& tell(double value, const std::string& unit, const std::string& by);
+
+  /// Tells in words why another renderer's figures are what they are, or what it did instead of
+  /// giving one ("crashes").
+  HardCase& tell(const std::string& words, const std::string& by);
+
   struct Measured
   {
     std::string unit;
@@ -54,11 +62,23 @@ public:
   };
 
 private:
+  struct Told
+  {
+    std::string by;
+    std::vector<Measured> figures; ///< without bounds
+    std::string words;
+  };
+
   void ran(const std::string& by);
+  Told& told_by(const std::string& by);
 
   std::string Group, Name, Why, Promise;
   std::vector<Measured> Figures; ///< in the order of their first measurement
   std::vector<std::string> By;   ///< likewise
+  std::vector<Told> Others;
 };
+
+/// What stands above the cases of a group on the page; may differ from machine to machine.
+void introduce_group(const std::string& group, const std::string& text);
 
 }

@@ -1,6 +1,10 @@
 // hard-cases-page RECORDS PAGE [--machine TEXT]   writes the page
 // hard-cases-page RECORDS PAGE --check            tells where the page and the records differ
 //
+// What other renderers did on the same cases (HardCase::tell) is a group of its own with a column
+// each. Where there are no records of it, as under sanitizers and without a display, the check
+// leaves it out and says so.
+//
 // RECORDS is the folder that the tests of label stability write to (BRUME_HARD_CASES), PAGE is
 // docs/dev/hard-cases.md. What is checked is what does not depend on the machine: which cases there
 // are, in which order, why each is hard and what is promised.
@@ -23,12 +27,10 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-const std::vector<std::string> groups = { "Optics",
-  "Rays",
-  "Data",
-  "Media",
-  "Machines",
-  "Invariants" };
+const char* const peers = "Peers"; ///< the group of other renderers
+
+const std::vector<std::string>
+  groups = { "Optics", "Rays", "Data", "Media", "Machines", "Invariants", peers };
 
 /// The place of a group on the page; others follow by name.
 std::pair<std::size_t, std::string> place(const std::string& group)
@@ -59,7 +61,7 @@ Cases read_records(const std::string& folder)
       auto& group = cases[place(one.at("group"))];
       for (const Json& other : group)
       {
-        if (other.at("name") == one.at("name"))
+        if (one.contains("name") && other.value("name", "") == one.at("name"))
         {
           throw std::runtime_error(file.string() + ": another program has a case \"" +
                                    one.at("name").get<std::string>() +
@@ -90,7 +92,8 @@ std::string figure(const Json& number)
     return "not finite";
   }
   char text[32];
-  std::snprintf(text, sizeof text, "%.2g", number.get<double>());
+  const double value = number.get<double>();
+  std::snprintf(text, sizeof text, value >= 100.0 && value < 1e4 ? "%.0f" : "%.2g", value);
   return text;
 }
 
@@ -107,12 +110,55 @@ std::string measured(const Json& one)
         ? unit + ": " + times(each.at("value")) + " of " + times(each.at("bound"))
         : figure(each.at("value")) + " " + unit + " (at most " + figure(each.at("bound")) + ")";
   }
+  return out;
+}
+
+std::string measured_by(const Json& one)
+{
   std::string by;
   for (const Json& each : one.at("by"))
   {
     by += (by.empty() ? "" : ", ") + each.get<std::string>();
   }
-  return by.empty() ? out : out + "; by " + by;
+  return by.empty() ? measured(one) : measured(one) + "; by " + by;
+}
+
+/// What another renderer did in a case.
+std::string told(const Json& one, const std::string& by)
+{
+  std::string out;
+  for (const Json& other : one.value("others", Json::array()))
+  {
+    if (other.at("by") == by)
+    {
+      for (const Json& each : other.at("told"))
+      {
+        out += (out.empty() ? "" : "; ") + figure(each.at("value")) + " " +
+               each.at("unit").get<std::string>();
+      }
+      const std::string words = other.at("words");
+      out += words.empty() ? "" : (out.empty() ? "" : ": ") + words;
+    }
+  }
+  return out;
+}
+
+/// The other renderers of a group, in the order of their first figures.
+std::vector<std::string> others_of(const std::vector<Json>& rows)
+{
+  std::vector<std::string> names;
+  for (const Json& one : rows)
+  {
+    for (const Json& other : one.value("others", Json::array()))
+    {
+      const std::string by = other.at("by");
+      if (std::find(names.begin(), names.end(), by) == names.end())
+      {
+        names.push_back(by);
+      }
+    }
+  }
+  return names;
 }
 
 /// What a case's row begins with, whatever was measured.
@@ -127,7 +173,7 @@ void write_page(std::ostream& out, const Cases& cases, const std::string& machin
   std::size_t count = 0;
   for (const auto& [group, rows] : cases)
   {
-    count += rows.size();
+    count += group.second == peers ? 0 : rows.size();
   }
   out
     << "# Hard cases\n\n"
@@ -143,17 +189,46 @@ void write_page(std::ostream& out, const Cases& cases, const std::string& machin
   out << " Where several were run, the worst is shown.\n";
   for (const auto& [group, rows] : cases)
   {
-    out << "\n## " << group.second
-        << "\n\n| case | why it is hard | promised | measured |\n|---|---|---|---|\n";
+    out << "\n## " << group.second << '\n';
     for (const Json& one : rows)
     {
-      out << promised(one) << ' ' << cell(measured(one)) << " |\n";
+      if (one.contains("introduction"))
+      {
+        out << '\n' << one.at("introduction").get<std::string>() << '\n';
+      }
+    }
+    const std::vector<std::string> others = others_of(rows);
+    out << "\n| case | why it is hard | "
+        << (others.empty() ? "promised | measured |" : "what is measured | Brume |");
+    for (const std::string& other : others)
+    {
+      out << ' ' << other << " |";
+    }
+    out << "\n|";
+    for (std::size_t column = 0; column < 4 + others.size(); ++column)
+    {
+      out << "---|";
+    }
+    out << '\n';
+    for (const Json& one : rows)
+    {
+      if (!one.contains("name"))
+      {
+        continue;
+      }
+      out << promised(one) << ' ' << cell(others.empty() ? measured_by(one) : measured(one))
+          << " |";
+      for (const std::string& other : others)
+      {
+        out << ' ' << cell(told(one, other)) << " |";
+      }
+      out << '\n';
     }
   }
 }
 
-/// The rows of a page without their last cells, with the headings above them.
-std::vector<std::string> promises_of(std::istream& page)
+/// The first three cells of a page's rows, with the headings above them; of the peers, if wanted.
+std::vector<std::string> promises_of(std::istream& page, bool with_peers)
 {
   std::vector<std::string> out;
   std::string line;
@@ -162,13 +237,19 @@ std::vector<std::string> promises_of(std::istream& page)
   {
     if (line.rfind("## ", 0) == 0)
     {
-      in_group = true;
-      out.push_back(line);
+      in_group = with_peers || line != std::string("## ") + peers;
+      if (in_group)
+      {
+        out.push_back(line);
+      }
     }
     else if (in_group && line.rfind("| ", 0) == 0 && line.rfind("| case |", 0) != 0)
     {
-      const std::size_t end =
-        line.size() > 2 ? line.rfind(" | ", line.size() - 3) : std::string::npos;
+      std::size_t end = 0;
+      for (int cells = 0; cells < 3 && end != std::string::npos; ++cells)
+      {
+        end = line.find(" | ", end + 1);
+      }
       out.push_back(end == std::string::npos ? line : line.substr(0, end + 2));
     }
   }
@@ -183,10 +264,15 @@ int check_page(const std::string& page, const Cases& cases)
     std::cerr << page << ": cannot be read: write it with scripts/hard-cases\n";
     return 1;
   }
-  const std::vector<std::string> there = promises_of(stream);
+  const bool with_peers = cases.count(place(peers)) > 0;
+  if (!with_peers)
+  {
+    std::cout << "not checked, as there are no records: " << peers << '\n';
+  }
+  const std::vector<std::string> there = promises_of(stream, with_peers);
   std::stringstream fresh;
   write_page(fresh, cases, "");
-  const std::vector<std::string> wanted = promises_of(fresh);
+  const std::vector<std::string> wanted = promises_of(fresh, with_peers);
   int differences = 0;
   const auto tell = [&](const std::vector<std::string>& some,
                       const std::vector<std::string>& others,

@@ -140,6 +140,50 @@ TEST(OddGrids, UnevenSpacing)
   }
 }
 
+// The fault that this was: no ray was given more than 2¹⁶ steps of the box's diagonal, so that rays
+// across a sheet had fewer steps than it has layers.
+TEST(OddGrids, WideSheets)
+{
+  HardCase sheet("Rays",
+    "rays across a sheet that is 1e6 layers wide",
+    "how many steps a ray may have is a matter of its own way, not of the box's diagonal",
+    "the step that was asked for, and the reference's picture within 2e-3");
+  const Voxels<float> voxels(5,
+    5,
+    33,
+    [](int i, int j, int k) { return 100.0 * std::exp(-0.02 * (k - 16) * (k - 16)) + i - j; });
+  Scene scene;
+  Volume& volume = scene.volumes[0];
+  volume.grid = voxels.grid();
+  volume.data_from_index = placed(glm::dvec3(2.5e5, 2.5e5, 1.0), glm::dvec3(0.0));
+  volume.meaning = ValueMeaning::Classified;
+  volume.classification = classify(
+    -4.0,
+    104.0,
+    [](double v) { return 1e-5 * std::max(v, 0.0) * std::max(v, 0.0); },
+    [](double v) { return glm::dvec3(0.01 * v, 0.5, 1.0 - 0.01 * v); },
+    4097);
+  scene.camera = view_of(scene, glm::dvec3(0.3, 0.2, -1.0), true).camera(1.0);
+  Film truth(5, 5);
+  render_reference(scene, {}, truth);
+  for (const std::string& target : targets())
+  {
+    ASSERT_TRUE(force_simd_target(target));
+    for (const StepRule rule : { StepRule::Midpoint, StepRule::Integrated })
+    {
+      MarchSettings settings;
+      settings.rule = rule;
+      settings.step = 0.25;
+      settings.leave_error = 0.0;
+      Film film(5, 5);
+      const MarchStatistics statistics = Marcher().render(scene, settings, film);
+      sheet.measure(difference(film, truth), 2e-3, "of white", step_rule_name(rule));
+      sheet.holds(statistics.step == settings.step, "steps as asked", step_rule_name(rule));
+    }
+    force_simd_target("");
+  }
+}
+
 TEST(OddGrids, ShearedAndMirrored)
 {
   HardCase sheared("Rays",

@@ -27,7 +27,7 @@
 namespace stock_pictures
 {
 
-constexpr int size = 120;
+inline int size = 120; ///< pixels of a picture's edge; set before the first picture
 
 /// A scene that every mapper is to draw alike.
 struct Scene
@@ -37,6 +37,11 @@ struct Scene
   double step = 0.5;
   std::function<void(vtkVolume*)> volume = [](vtkVolume*) {};
   std::function<void(vtkVolumeMapper*)> mapper = [](vtkVolumeMapper*) {};
+  std::function<void(vtkCamera*)> camera = [](vtkCamera* camera)
+  {
+    const double centre[3] = { 15.5, 14.0, 16.5 }; // of ball_image
+    vtk_scenes::look_at(camera, centre, 90.0);
+  };
   vtkSmartPointer<vtkImageData> mask; ///< of Brume and the GPU mapper
   bool binary = false;
   float blend = 1.0f;
@@ -63,8 +68,7 @@ struct Window
     light->SetLightTypeToHeadlight();
     light->SetAmbientColor(1, 1, 1);
     renderer->AddLight(light);
-    const double centre[3] = { 15.5, 14.0, 16.5 };
-    vtk_scenes::look_at(renderer->GetActiveCamera(), centre, 90.0);
+    scene.camera(renderer->GetActiveCamera());
     scene.volume(volume);
   }
   void render(vtkVolumeMapper* mapper, const Scene& scene)
