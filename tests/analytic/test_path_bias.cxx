@@ -159,6 +159,33 @@ TEST(PathBias, RouletteKeepsTheMean)
   }
 }
 
+// Dark matter, where nearly all paths meet roulette: in packets as path by path. The half-spaces above
+// are so wide that packets would lose places in them.
+TEST(PathBias, RouletteInPacketsKeepsTheMean)
+{
+  Uneven dark(glm::dvec3(1.0), 1.0);
+  dark.scene.volumes[0].medium.albedo = glm::dvec3(0.24);
+  dark.scene.volumes[0].medium.lobes.clear();
+  dark.scene.volumes[0].density.extinction = 2.0;
+  // A volume of next to nothing is no matter for packets.
+  Scene apart = dark.scene;
+  apart.volumes.push_back(apart.volumes[0]);
+  apart.volumes[1].density.extinction = 1e-12;
+  Mean means[2];
+  for (int which = 0; which < 2; ++which)
+  {
+    PathSettings settings;
+    settings.samples_per_pixel = 10 * seeds;
+    settings.seed = static_cast<std::uint32_t>(first_seed() + which);
+    means[which] = mean_of(traced(which ? apart : dark.scene, settings, 32, 32));
+  }
+  const double error = std::hypot(means[0].error.x, means[1].error.x);
+  const double off = means[0].value.x - means[1].value.x;
+  std::cout << "packets and single paths differ by " << off / error << " standard errors of "
+            << error / means[1].value.x << '\n';
+  EXPECT_LE(std::abs(off), 4.0 * error);
+}
+
 // All channels of a half-space are alike, however much thinner one is than the hero's. Roulette
 // among them: path by path, not in packets.
 TEST(PathBias, ColoursAreWeighted)

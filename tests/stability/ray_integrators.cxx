@@ -1,5 +1,7 @@
 #include "ray_integrators.h"
 
+#include "ray_mappers.h"
+
 #include "Transport/path_tracer.h"
 #include "Transport/reference.h"
 
@@ -16,27 +18,15 @@ namespace
 
 constexpr double step = 0.37;
 constexpr glm::dvec3 colour{ 0.75, 0.5, 0.25 };
-constexpr int paths = 1024;
 constexpr double glow = 0.4;    ///< radiance that an infinite depth sends
 constexpr double albedo = 0.75; ///< of lit matter
-/// Irradiance π · diffuse, isotropic 1/4π: what a sun sends back per unit of optical depth.
 constexpr double diffuse = 2.0;
+/// Irradiance π · diffuse, isotropic 1/4π: what a sun sends back per unit of optical depth.
 constexpr double sent_back = 0.25 * diffuse * albedo;
 
 Pixel pixel_of(const Film& film)
 {
   return { film.transmittance[0][0], film.radiance[0][0] };
-}
-
-/// The longest edge of what a unit of index space is in the data: steps are made for it.
-double edge(const RampRay& ray)
-{
-  double longest = 0.0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    longest = std::max(longest, glm::length(glm::dvec3(ray.data_from_index[axis])));
-  }
-  return longest;
 }
 
 Film marched(const Scene& scene, const MarchSettings& settings, double& reads)
@@ -50,7 +40,7 @@ Film marched(const Scene& scene, const MarchSettings& settings, double& reads)
 MarchSettings settings_for(const RampRay& ray)
 {
   MarchSettings settings;
-  settings.step = step * edge(ray);
+  settings.step = step * longest_edge(ray);
   settings.leave_error = 0.0;
   settings.threads = 1;
   return settings;
@@ -65,45 +55,6 @@ void classify_ramp(const RampRay& ray, Scene& scene)
   volume.classification = classify(
     0.0, 4.0, [&](double v) { return -std::expm1(-0.5 * v); }, [](double) { return colour; }, 4097);
   volume.classification.unit_distance = unit;
-}
-
-/// What lit matter sends.
-enum class Sends
-{
-  Both,
-  Sunlight,
-  Glow,
-};
-
-void light_ramp(const RampRay& ray, Scene& scene, Sends sends)
-{
-  Volume& volume = scene.volumes[0];
-  volume.medium.lit = true;
-  volume.medium.albedo = glm::dvec3(sends == Sends::Glow ? 0.0 : albedo);
-  volume.medium.emission = glm::dvec3(sends == Sends::Sunlight ? 0.0 : glow * ray.extinction);
-  if (sends == Sends::Glow)
-  {
-    return;
-  }
-  Light sun;
-  sun.diffuse = glm::dvec3(diffuse);
-  sun.direction = scene.camera.direction;
-  scene.lights.push_back(sun);
-}
-
-/// A sun behind the camera, whose light comes and goes the same way: the whole box counts, not only
-/// what lies before the near plane.
-Pixel lit_truth(const RampRay& ray, Sends sends)
-{
-  const double depth = ray.optical_depth();
-  RampRay before = ray;
-  before.from = ray.from - glm::normalize(ray.to - ray.from) * 1000.0;
-  before.to = ray.from;
-  const double above = before.optical_depth();
-  const double sunlight = sent_back * 0.5 * std::exp(-above) * -std::expm1(-2.0 * depth);
-  const double glows = -glow * std::expm1(-depth);
-  return { std::exp(-depth),
-    (sends == Sends::Glow ? 0.0 : sunlight) + (sends == Sends::Sunlight ? 0.0 : glows) };
 }
 
 RayIntegrator by_reference()
@@ -152,7 +103,7 @@ RayIntegrator by_fixed_steps()
   {
     const RampScene ramp(ray);
     Film film(1, 1);
-    render_fixed_step(ramp.scene, step * edge(ray), SamplePlacement::Middle, 0.0, 1, film);
+    render_fixed_step(ramp.scene, step * longest_edge(ray), SamplePlacement::Middle, 0.0, 1, film);
     return Pixel{ film.transmittance[0][0], NAN };
   };
   one.truth = by_reference().truth;
@@ -270,7 +221,7 @@ RayIntegrator by_lit_march(ShadowMethod method)
     MarchSettings settings = settings_for(ray);
     settings.shadows = method;
     settings.precise_shadows = true;
-    settings.shadow_step = method == ShadowMethod::Volume ? 0.25 * edge(ray) : 0.0;
+    settings.shadow_step = method == ShadowMethod::Volume ? 0.25 * longest_edge(ray) : 0.0;
     double reads = 0.0; // shadow rays' are among them
     return pixel_of(marched(ramp.scene, settings, reads));
   };
@@ -293,7 +244,7 @@ RayIntegrator by_paths(const std::string& name, Sends sends, double blue)
     ramp.scene.volumes[0].density.channels.z = blue;
     Film film(1, 1);
     PathSettings settings;
-    settings.samples_per_pixel = paths;
+    settings.samples_per_pixel = ray_paths;
     settings.most_scatterings = 1;
     settings.threads = 1;
     PathTracer tracer;
@@ -346,7 +297,7 @@ void measure(brume_tests::HardCase& hard_case,
     // A hair of matter is hit by few paths or none, which tell no error: it is no less than by as
     // many hits as are to be expected, and one.
     const double hit = -std::expm1(-ray.optical_depth());
-    const double error = std::max(reads, glow * std::sqrt((hit + 1.0 / paths) / paths));
+    const double error = std::max(reads, glow * std::sqrt((hit + 1.0 / ray_paths) / ray_paths));
     hard_case.measure(sends / error, one.bound, "standard errors of 1024 paths", one.name);
     return;
   }
@@ -364,6 +315,47 @@ void measure(brume_tests::HardCase& hard_case,
 
 }
 
+double longest_edge(const RampRay& ray)
+{
+  double longest = 0.0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    longest = std::max(longest, glm::length(glm::dvec3(ray.data_from_index[axis])));
+  }
+  return longest;
+}
+
+void light_ramp(const RampRay& ray, Scene& scene, Sends sends)
+{
+  Volume& volume = scene.volumes[0];
+  volume.medium.lit = true;
+  volume.medium.albedo = glm::dvec3(sends == Sends::Glow ? 0.0 : albedo);
+  volume.medium.emission = glm::dvec3(sends == Sends::Sunlight ? 0.0 : glow * ray.extinction);
+  if (sends == Sends::Glow)
+  {
+    return;
+  }
+  Light sun;
+  sun.diffuse = glm::dvec3(diffuse);
+  sun.direction = scene.camera.direction;
+  scene.lights.push_back(sun);
+}
+
+/// A sun behind the camera, whose light comes and goes the same way: the whole box counts, not only
+/// what lies before the near plane.
+Pixel lit_truth(const RampRay& ray, Sends sends)
+{
+  const double depth = ray.optical_depth();
+  RampRay before = ray;
+  before.from = ray.from - glm::normalize(ray.to - ray.from) * 1000.0;
+  before.to = ray.from;
+  const double above = before.optical_depth();
+  const double sunlight = sent_back * 0.5 * std::exp(-above) * -std::expm1(-2.0 * depth);
+  const double glows = -glow * std::expm1(-depth);
+  return { std::exp(-depth),
+    (sends == Sends::Glow ? 0.0 : sunlight) + (sends == Sends::Sunlight ? 0.0 : glows) };
+}
+
 const std::vector<RayIntegrator>& ray_integrators()
 {
   static const std::vector<RayIntegrator> all = { by_reference(),
@@ -378,7 +370,12 @@ const std::vector<RayIntegrator>& ray_integrators()
     by_lit_march(ShadowMethod::Volume),
     by_paths("packets of paths", Sends::Sunlight, 1.0),
     by_paths("paths one by one", Sends::Sunlight, 0.5),
-    by_paths("paths through glow", Sends::Glow, 1.0) };
+    by_paths("paths through glow", Sends::Glow, 1.0),
+    by_march_mapper(),
+    by_lit_march_mapper(),
+    by_path_mapper(),
+    by_lit_path_mapper(),
+    by_smart_mapper() };
   return all;
 }
 

@@ -36,9 +36,28 @@ struct RayIntegrator
   bool by_value = false;
 };
 
+/// What lit matter sends: a sun's light from behind the camera, scattered once, its own, or both.
+enum class Sends
+{
+  Both,
+  Sunlight,
+  Glow,
+};
+
+constexpr int ray_paths = 1024; ///< a pixel, for what is random
+
+/// Lights a ramp's scene from behind its camera, and lets it glow.
+void light_ramp(const RampRay& ray, Scene& scene, Sends sends);
+
+/// The pixel in closed form.
+Pixel lit_truth(const RampRay& ray, Sends sends);
+
+/// The longest edge of what a unit of index space is in the data: steps are made for it.
+double longest_edge(const RampRay& ray);
+
 /// All of them. Among them: the reference, fixed steps, the marcher by every rule, projections and
 /// surfaces, lit media with a sun behind the camera and glow, by shadow rays and light volumes,
-/// paths in packets and one by one.
+/// paths in packets and one by one; and the mappers (ray_mappers.h).
 const std::vector<RayIntegrator>& ray_integrators();
 
 /// Draws a ray with all of them, on all SIMD targets, and measures them. `loosen` multiplies the

@@ -1,6 +1,9 @@
 // Hard cases of cameras: on a face, inside, at a light, nearly flat or nearly all-round, planes far
 // apart.
 #include "ray_integrators.h"
+#include "ray_mappers.h"
+
+#include "vtkBrumeSmartVolumeMapper.h"
 
 #include "Transport/path_tracer.h"
 #include "Transport/reference.h"
@@ -118,6 +121,24 @@ void measure_view(HardCase& hard_case, BoxScene& box, const View& view, double b
   tracer.render(lit, paths, film);
   hard_case.measure(worst(film), bound, "of white", "paths");
   hard_case.holds(all_finite(film), "light is finite", "paths");
+  if (view.half_height > view.distance * std::tan(89.5 / 180.0 * pi))
+  {
+    return; // no vtkCamera sees more than 179 degrees
+  }
+  for (const Scene* scene : { static_cast<const Scene*>(&box.scene), static_cast<const Scene*>(&lit) })
+  {
+    for (const NamedMapper& one : new_mappers(0.41, 4, scene == &lit ? 0.01 : 1e-6))
+    {
+      const Film picture = MapperScene(one.mapper, *scene, vtk_camera(view)).film(edge);
+      // The smart mapper's tolerance, where it is lit, is that of light.
+      const bool by_tolerance = scene == &lit && one.name == "vtkBrumeSmartVolumeMapper";
+      hard_case.measure(worst(picture),
+        by_tolerance ? 0.01 : bound,
+        by_tolerance ? "of white by a tolerance" : "of white",
+        one.name);
+      hard_case.holds(all_finite(picture), "light is finite", one.name);
+    }
+  }
 }
 
 }
@@ -182,7 +203,7 @@ TEST(Cameras, Angles)
   HardCase angles("Rays",
     "view angles from 1e-6 to 179.9 degrees",
     "rays that are all but parallel, and rays that are all but in the near plane",
-    "the closed form of each pixel's chord");
+    "the closed form of each pixel's chord; by mappers up to the 179 degrees that a vtkCamera has");
   for (const double degrees : { 1e-6, 1e-3, 1.0, 90.0, 170.0, 179.9 })
   {
     View view;
@@ -288,6 +309,22 @@ TEST(Cameras, AtALight)
     }
     // The noise of so few paths beside a lamp is not Gaussian.
     lamp.measure(worst, 6.0, "standard errors of 256 paths", "paths");
+    for (const NamedMapper& one : new_mappers(0.125, 64, 0.01))
+    {
+      if (auto* smart = vtkBrumeSmartVolumeMapper::SafeDownCast(one.mapper))
+      {
+        smart->SetTimeBudget(0.1); // paths beside a lamp take long to any tolerance
+      }
+      const Film picture = MapperScene(one.mapper, scene, vtk_camera(view)).film(edge);
+      lamp.holds(all_finite(picture), "finite", one.name);
+      if (one.name == "vtkBrumeRayMarchMapper")
+      {
+        lamp.measure(difference(picture, truth) / std::max(brightest, 1.0),
+          2e-3,
+          "of the brightest",
+          one.name);
+      }
+    }
   }
 }
 
@@ -369,6 +406,16 @@ TEST(Cameras, BrokenMatrices)
             Marcher().render(unlit, settings, film);
           });
         force_simd_target("");
+      }
+      if (where == 0)
+      {
+        continue; // a vtkCamera is made of places and angles
+      }
+      for (const NamedMapper& one : new_mappers(0.5, 4, 0.01))
+      {
+        broken.holds(MapperScene(one.mapper, scene, vtk_camera(view)).refused_or_sane(5),
+          "refused or sane",
+          one.name);
       }
     }
   }

@@ -1,6 +1,7 @@
 // Hard cases of single rays: along axes, faces, edges and corners, grazing, touching, hardly
 // moving.
 #include "ray_integrators.h"
+#include "ray_mappers.h"
 
 #include "Transport/reference.h"
 
@@ -238,7 +239,8 @@ TEST(LevelRays, HardlyMoving)
   HardCase tiny("Rays",
     "a direction that is near zero or denormal along an axis: 1e-12 to 5e-324 of the way",
     "its inverse overflows single precision, then double",
-    "the same as standing still");
+    "the same as standing still, and as a vtkCamera's unit vectors have it, which keep no less than "
+    "1e-16");
   constexpr double least = std::numeric_limits<double>::denorm_min();
   for (const double slope : { 1e-12, 1e-18, 1e-30, 1.1e-38, 1e-42, 1e-45, 1e-300, 1e-310, least })
   {
@@ -299,6 +301,10 @@ TEST(LevelRays, BetweenNearestVoxels)
     Film film(1, 1);
     render_reference(scene.scene, {}, film);
     see(film, "reference");
+    for (const NamedMapper& one : new_mappers(0.37))
+    {
+      see(MapperScene(one.mapper, scene.scene, vtk_camera(ray.from, ray.to)).film(1), one.name);
+    }
     for (const std::string& target : targets())
     {
       ASSERT_TRUE(force_simd_target(target));

@@ -4,9 +4,12 @@
 #include "hard_case.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <tbb/global_control.h>
 
 #include <atomic>
+#include <cstdlib>
+#include <fstream>
 #include <memory>
 #include <thread>
 
@@ -95,6 +98,81 @@ TEST(Machines, EveryInstructionSet)
         std::abs(apart) / std::sqrt(noise), 4.5, "standard errors of the mean", artist.name);
     }
     force_simd_target("");
+  }
+}
+
+namespace
+{
+
+/// How far the means of two pictures by paths are apart, in standard errors.
+double apart_in_noise(const Film& film, const std::vector<float>& radiance)
+{
+  double apart = 0.0;
+  double noise = 0.0;
+  for (std::size_t i = 0; i < film.size(); ++i)
+  {
+    apart += film.radiance[1][i] - radiance[i];
+    noise += 2.0 * film.error[i] * film.error[i] / 9.0;
+  }
+  return std::abs(apart) / std::sqrt(noise);
+}
+
+double difference(const std::vector<float>& a, const std::vector<float>& b)
+{
+  double most = a.size() == b.size() ? 0.0 : NAN;
+  for (std::size_t i = 0; i < a.size() && i < b.size(); ++i)
+  {
+    const double off = std::abs(double(a[i]) - b[i]);
+    most = off <= most ? most : off; // a NaN wins
+  }
+  return most;
+}
+
+}
+
+// The pictures of a release build are kept; whichever build this is, it draws them again.
+// BRUME_UPDATE_BASELINES=1 in a release build writes them anew.
+TEST(Machines, EveryBuild)
+{
+  const std::string path = BRUME_TEST_BASELINES "/every-build.json";
+  constexpr int w = 9;
+  constexpr int h = 7;
+  if (std::getenv("BRUME_UPDATE_BASELINES"))
+  {
+    nlohmann::ordered_json kept;
+    for (const Artist& artist : artists())
+    {
+      const Film film = drawn(artist, 0, w, h);
+      kept[artist.name] = { { "radiance", film.radiance[1] },
+        { "transmittance", film.transmittance[1] } };
+    }
+    std::ofstream(path) << kept.dump(1) << '\n';
+  }
+  HardCase builds("Machines",
+    "release, debug and sanitized builds",
+    "other optimisations round differently, fuse other products and order sums otherwise",
+    "within 1e-5 of white of the pictures that a release build has left (1e-4 where powers, "
+    "cosines "
+    "and 16 bits magnify it, 2e-3 where an estimate decides); paths within their noise");
+  std::ifstream file(path);
+  const nlohmann::json kept = nlohmann::json::parse(file);
+  EXPECT_EQ(kept.size(), artists().size());
+  for (const Artist& artist : artists())
+  {
+    const Film film = drawn(artist, 0, w, h);
+    const std::vector<float> radiance = kept.at(artist.name).at("radiance");
+    const std::vector<float> transmittance = kept.at(artist.name).at("transmittance");
+    const double off = difference(film.radiance[1], radiance);
+    const double passes = difference(film.transmittance[1], transmittance);
+    const double bound = artist.apart > 0.0 ? artist.apart : 1e-5;
+    builds.measure(passes / bound, 1.0, "of what they may be apart", artist.name);
+    if (artist.apart == 0.0)
+    {
+      builds.measure(
+        apart_in_noise(film, radiance), 4.5, "standard errors of the mean", artist.name);
+      continue;
+    }
+    builds.measure(off / bound, 1.0, "of what they may be apart", artist.name);
   }
 }
 

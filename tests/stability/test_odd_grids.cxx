@@ -1,6 +1,7 @@
 // Hard cases of grids and their places: thin ones, tiny and huge spacing, sheared and mirrored
 // matrices, far origins.
 #include "ray_integrators.h"
+#include "ray_mappers.h"
 
 #include "Transport/path_tracer.h"
 #include "Transport/reference.h"
@@ -227,6 +228,7 @@ struct FarScene
                                 std::sin(0.7 * i) * std::sin(0.6 * j + 1.0) * std::cos(0.5 * k);
                        } };
   Scene scene;
+  View view;
 
   explicit FarScene(const glm::dvec3& away, double edge = 1.0)
   {
@@ -245,7 +247,7 @@ struct FarScene
     lamp.position = (away + glm::dvec3(22.0, 6.0, 8.0)) * edge;
     lamp.attenuation = { 1.0, 0.0, 0.01 / (edge * edge) };
     scene.lights = { sun, lamp };
-    View view = view_of(scene, glm::dvec3(-0.4, 0.5, -0.8), false);
+    view = view_of(scene, glm::dvec3(-0.4, 0.5, -0.8), false);
     scene.camera = view.camera(1.0);
   }
 };
@@ -317,5 +319,24 @@ TEST(OddGrids, FarOrigins)
       worst = std::max(worst, apart / std::max(error, 1e-6));
     }
     far.measure(worst, 4.5, "standard errors of 64 paths", "paths");
+    const auto by_march = [](const FarScene& one)
+    {
+      return MapperScene(new_mappers(0.5)[0].mapper, one.scene, vtk_camera(one.view)).film(16);
+    };
+    far.measure(
+      difference(by_march(near), by_march(moved)), 2e-5, "of white", "vtkBrumeRayMarchMapper");
+    // What scatters is random, and the smart mapper's steps are chosen: what passes is neither.
+    FarScene dark_near = near;
+    FarScene dark_moved = moved;
+    dark_near.scene.volumes[0].medium.lit = dark_moved.scene.volumes[0].medium.lit = false;
+    for (std::size_t i = 1; i < 3; ++i)
+    {
+      const auto by = [i](const FarScene& one)
+      {
+        return MapperScene(new_mappers(0.5)[i].mapper, one.scene, vtk_camera(one.view)).film(16);
+      };
+      far.measure(
+        difference(by(dark_near), by(dark_moved)), 2e-5, "of white", new_mappers(0.5)[i].name);
+    }
   }
 }

@@ -2,6 +2,7 @@
 // not seen.
 #include "property.h"
 #include "ray_integrators.h"
+#include "ray_mappers.h"
 
 #include "../support/sparse_grids.h"
 
@@ -298,6 +299,16 @@ TEST(Progress, BrickBorders)
     Film film(1, 1);
     render_reference(scene, {}, film);
     borders.measure(off(film), 2e-6, "of white", "reference");
+    // Paths go cell by cell, the march by the steps it was given, the smart mapper by its own.
+    const char* const units[] = { "of white by steps of 1/8", "of white", "of white by a tolerance" };
+    const double bounds[] = { 5e-5, 2e-6, 1e-3 };
+    const std::vector<NamedMapper> mappers = new_mappers(0.125, 1, 1e-3);
+    for (std::size_t k = 0; k < mappers.size(); ++k)
+    {
+      const Film passes =
+        MapperScene(mappers[k].mapper, scene, vtk_camera(ray.from, ray.to)).film(1);
+      borders.measure(off(passes), bounds[k], units[k], mappers[k].name);
+    }
     for (const std::string& target : targets())
     {
       ASSERT_TRUE(force_simd_target(target));
@@ -367,7 +378,15 @@ TEST(Progress, SparseBorders)
   for (const glm::dvec3& forward :
     { glm::dvec3(0.0, 0.0, -1.0), glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(-0.4, 0.7, 0.3) })
   {
-    scene.camera = dense.camera = view_of(scene, forward, true).camera(1.0);
+    const View view = view_of(scene, forward, true);
+    scene.camera = dense.camera = view.camera(1.0);
+    for (int i = 0; i < 3; ++i)
+    {
+      const auto drawn = [&](const Scene& one)
+      { return MapperScene(new_mappers(0.125)[i].mapper, one, vtk_camera(view)).film(19); };
+      sparse.measure(
+        difference(drawn(scene), drawn(dense)), 5e-6, "of white", new_mappers(0.125)[i].name);
+    }
     Film a(19, 19);
     Film b(19, 19);
     for (const std::string& target : targets())
