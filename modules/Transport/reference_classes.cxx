@@ -168,8 +168,11 @@ double ReferenceClasses::extinction(double value, double magnitude) const
   {
     return extinction_from_opacity(this->node(value, magnitude, 3), c.unit_distance);
   }
-  return interpolate(
-    this->Extinction.data(), table_position(value, c.lower, c.upper, this->Columns));
+  const TablePosition at = table_position(value, c.lower, c.upper, this->Columns);
+  // It is the opacity that is linear between nodes. Nodes as close as these spare the logarithm.
+  return this->Columns > LookupTable::most_intervals
+           ? interpolate(this->Extinction.data(), at)
+           : extinction_from_opacity(interpolate(c.opacity.data(), at), c.unit_distance);
 }
 
 double ReferenceClasses::opacity(double value, double magnitude) const

@@ -47,7 +47,7 @@ struct StepChoice
 /// 1e-4), by the rule that needs the fewer samples; the shortest where none is expected to do.
 ///
 /// The expectation is measured with the kernels themselves: 4096 rays of the scene's camera, spread
-/// evenly over the outline of what can be seen of the volume, whatever part of it is in the picture, are
+/// evenly over the outline of what can be seen of the volumes, whatever part of it is in the picture, are
 /// marched with steps of 4, 2, 1, … voxel edges (4 and 2 are held against 1, too, which steps over no voxel); where hardly any of them meets something, steps
 /// of ¼, ⅛, … are. The midpoint rule's error falls with the square of the step, so that 4/3
 /// of the largest change by a halving is the error of the longer step; half of that again is added for

@@ -118,7 +118,10 @@ glm::dmat4 zoomed_to_volumes(const Scene& scene, std::size_t volumes)
 glm::dmat4 zoomed_to_matter(const Scene& scene)
 {
   std::vector<glm::dvec3> corners;
-  add_corners(scene.volumes[0], visible_box(scene.volumes[0]), corners);
+  for (const Volume& volume : scene.volumes)
+  {
+    add_corners(volume, visible_box(volume), corners);
+  }
   return zoomed_to(scene, corners);
 }
 

@@ -19,7 +19,7 @@ std::vector<glm::dvec3> corners_of_volumes(const Scene& scene, std::size_t volum
 /// volumes fill. The box of a camera inside it has none: the whole view then.
 glm::dmat4 zoomed_to_volumes(const Scene& scene, std::size_t volumes);
 
-/// The same of what can be seen of the first volume: the box around its visible bricks, where its
+/// The same of what can be seen of all volumes: the boxes around their visible bricks, where the
 /// brick ranges are known (Volume::ranges) and no mask says otherwise; else as above.
 glm::dmat4 zoomed_to_matter(const Scene& scene);
 

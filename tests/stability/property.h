@@ -23,15 +23,26 @@ std::uint64_t property_seed();
 /// Tries `property`, a function of arguments that RapidCheck can make, or one that draws them with
 /// *rc::gen::…, as often as property_trials(few) says. Where it does not hold (RC_ASSERT), the test
 /// fails and tells the smallest arguments found, and the seed. Returns how often it held.
+///
+/// RapidCheck begins with small numbers: rc::gen::inRange is the whole range for one trial in a
+/// hundred. With `whole_ranges` it is for all.
 template <class Property>
-int expect_property(const std::string& name, int few, Property&& property)
+int expect_property(const std::string& name,
+  int few,
+  Property&& property,
+  bool whole_ranges = false)
 {
   rc::detail::TestParams parameters;
   parameters.seed = property_seed();
   parameters.maxSuccess = property_trials(few);
   rc::detail::TestMetadata what;
   what.id = what.description = name;
-  const auto result = rc::detail::checkTestable(std::forward<Property>(property), what, parameters);
+  auto tried = rc::detail::toProperty(std::forward<Property>(property));
+  if (whole_ranges)
+  {
+    tried = rc::gen::resize(rc::kNominalSize, std::move(tried));
+  }
+  const auto result = rc::detail::checkProperty(tried, what, parameters);
   if (result.template is<rc::detail::SuccessResult>())
   {
     return result.template get<rc::detail::SuccessResult>().numSuccess;

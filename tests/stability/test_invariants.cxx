@@ -21,15 +21,11 @@ TEST(Invariants, LinearInLights)
     "are four times the paths");
   Worst worst;
   Worst worst_paths;
-  const int held = expect_property("linear in lights",
-    few,
+  const int held = try_scenes("linear in lights",
     [&]()
     {
-      const TargetGuard guard;
-      draw_target();
       const RandomScene random = draw_scene(lit_or_not(true));
-      MarchSettings settings = settings_of(random);
-      settings.shadows = draw_shadows();
+      const MarchSettings settings = settings_of(random, true);
       const Film all = drawn(random.scene, settings);
       std::vector<double> sum[3];
       for (auto& channel : sum)
@@ -108,12 +104,9 @@ TEST(Invariants, Reciprocity)
     "and by paths in five of their standard errors");
   Worst worst;
   Worst worst_paths;
-  const int held = expect_property("reciprocity",
-    few,
+  const int held = try_scenes("reciprocity",
     [&]()
     {
-      const TargetGuard guard;
-      draw_target();
       const int layers = *rc::gen::inRange(2, 12);
       std::vector<float> values;
       for (int k = 0; k < layers; ++k)
@@ -239,12 +232,9 @@ TEST(Invariants, SaneUnlit)
     "a quadrature that overshoots, a table read beyond its end, 1 − T of a T that is not the sum's",
     "0 ≤ T ≤ 1 and 0 ≤ L ≤ the brightest colour · (1 − T), but for 1e-5");
   Worst worst;
-  const int held = expect_property("sane pictures",
-    few,
+  const int held = try_scenes("sane pictures",
     [&]()
     {
-      const TargetGuard guard;
-      draw_target();
       RandomScene random = draw_scene(lit_or_not(false));
       Scene& scene = random.scene;
       const bool classified = std::all_of(scene.volumes.begin(),
@@ -271,7 +261,7 @@ TEST(Invariants, SaneUnlit)
           most[i % 3] = std::max(most[i % 3], rgb[i]);
         }
       }
-      MarchSettings settings = settings_of(random);
+      MarchSettings settings = settings_of(random, false);
       settings.rule = *rc::gen::element(StepRule::Midpoint, StepRule::Integrated, StepRule::Cells);
       settings.step *= *rc::gen::element(0.3, 1.0, 10.0, 1000.0);
       settings.jitter = *rc::gen::arbitrary<bool>();
@@ -291,12 +281,9 @@ TEST(Invariants, SaneLit)
     "always finite");
   Worst worst;
   bool finite = true;
-  const int held = expect_property("sane lit pictures",
-    few,
+  const int held = try_scenes("sane lit pictures",
     [&]()
     {
-      const TargetGuard guard;
-      draw_target();
       RandomScene random = draw_scene(lit_or_not(true));
       Scene& scene = random.scene;
       glm::dvec3 arrives(0.5 * (scene.sky.radiance + scene.sky.ground));
@@ -314,7 +301,7 @@ TEST(Invariants, SaneLit)
           most[c] = std::max(most[c], sends[c]);
         }
       }
-      MarchSettings settings = settings_of(random);
+      MarchSettings settings = settings_of(random, true);
       settings.shadows = *rc::gen::element(
         ShadowMethod::None, ShadowMethod::Rays, ShadowMethod::Volume, ShadowMethod::Functions);
       settings.precise_shadows = *rc::gen::arbitrary<bool>();
@@ -341,6 +328,34 @@ TEST(Invariants, SaneLit)
   sane.holds(finite, "finite and not negative", "paths");
 }
 
+namespace
+{
+
+/// How far the mean of a white furnace's picture is from 1.
+double in_standard_errors(const Scene& scene, int samples, std::uint32_t seed)
+{
+  PathSettings paths;
+  paths.samples_per_pixel = samples;
+  paths.seed = seed;
+  paths.threads = 1;
+  Film film(edge, edge);
+  PathTracer().render(scene, paths, film);
+  double off = 0.0;
+  double noise = 0.0;
+  for (std::size_t i = 0; i < film.size(); ++i)
+  {
+    // A grey pixel's path is 0 or 1 here, so that its noise is that of the chance to pass;
+    // coloured ones tell theirs.
+    const double t = film.transmittance[1][i];
+    off += film.radiance[1][i] + t - 1.0;
+    noise += std::max(t * (1.0 - t) / samples, film.error[i] * film.error[i] / 9.0);
+  }
+  // The steps of the transmittance are off by some thousandths of a pixel.
+  return std::abs(off) / (std::sqrt(noise) + 0.1);
+}
+
+}
+
 TEST(Invariants, Furnace)
 {
   HardCase furnace("Invariants",
@@ -348,14 +363,12 @@ TEST(Invariants, Furnace)
     "each scattering keeps the light: a fault of a thousandth in weights, roulette or tracking "
     "adds up to "
     "the number of scatterings",
-    "L + T = 1 in the mean of each picture within five standard errors");
+    "L + T = 1 in the mean of each picture within five standard errors, of 64 times as many paths "
+    "where 32 a pixel say otherwise");
   Worst worst;
-  const int held = expect_property("furnaces",
-    few,
+  const int held = try_scenes("furnaces",
     [&]()
     {
-      const TargetGuard guard;
-      draw_target();
       SceneWishes wishes = lit_or_not(true);
       RandomScene random = draw_scene(wishes);
       Scene& scene = random.scene;
@@ -366,22 +379,14 @@ TEST(Invariants, Furnace)
         volume.medium.albedo = glm::dvec3(1.0);
         std::fill(volume.classification.rgb.begin(), volume.classification.rgb.end(), 1.0);
       }
-      PathSettings paths;
-      paths.samples_per_pixel = 8;
-      paths.threads = 1;
-      Film film(edge, edge);
-      PathTracer().render(scene, paths, film);
-      double off = 0.0;
-      double noise = 0.0;
-      for (std::size_t i = 0; i < film.size(); ++i)
+      // Of rare paths that bring much, few samples underestimate the noise: what looks wrong is
+      // tried again with more of other paths, and a true fault stands out eight times as far.
+      double off = in_standard_errors(scene, 32, 1);
+      if (off > 5.0)
       {
-        // A grey pixel's path is 0 or 1 here, so that its noise is that of the chance to pass;
-        // coloured ones tell theirs.
-        const double t = film.transmittance[1][i];
-        off += film.radiance[1][i] + t - 1.0;
-        noise += std::max(t * (1.0 - t) / 8.0, film.error[i] * film.error[i] / 9.0);
+        off = in_standard_errors(scene, 64 * 32, 2);
       }
-      RC_ASSERT(worst(std::abs(off) / (std::sqrt(noise) + 0.1)) <= 5.0);
+      RC_ASSERT(worst(off) <= 5.0);
     });
   tell(furnace, held, worst, 5.0, "standard errors of a picture", "paths");
 }
@@ -393,57 +398,77 @@ TEST(Invariants, LeavingEarly)
     "what is behind may be brighter than what is in front; a brick may be visible in a corner "
     "alone",
     "leaving changes no pixel by more than was allowed; leaping by no more than rounding does");
-  for (const bool lit : { false, true })
+  Worst worst_leap;
+  try_unlit_and_lit(early,
+    "leaving early",
+    1.0,
+    "of what was allowed",
+    [&worst_leap](bool lit, Worst& worst)
+    {
+      const RandomScene random = draw_scene(lit_or_not(lit));
+      MarchSettings settings = settings_of(random, lit);
+      const Film all = drawn(random.scene, settings);
+      const double allowed = *rc::gen::element(1e-1, 1e-2, 1e-3);
+      settings.leave_error = allowed;
+      RC_ASSERT(worst(difference(all, drawn(random.scene, settings)) / (allowed + 1e-5)) <= 1.0);
+      settings.leave_error = 0.0;
+      settings.leaping = false;
+      RC_ASSERT(worst_leap(relative(all, drawn(random.scene, settings)) / rounding) <= 1.0);
+    });
+  early.measure(worst_leap.value, 1.0, "of rounding between leaps and none", "march, lit march");
+}
+
+namespace
+{
+
+/// How many rays of two pictures met matter, and of how many a channel differs by more than a
+/// bound.
+void count_changed(const Film& a,
+  const Film& b,
+  double bound,
+  std::int64_t& met,
+  std::int64_t& changed)
+{
+  for (std::size_t i = 0; i < a.size(); ++i)
   {
-    Worst worst;
-    Worst worst_leap;
-    const int held = expect_property("leaving early",
-      few,
-      [&]()
-      {
-        const TargetGuard guard;
-        draw_target();
-        const RandomScene random = draw_scene(lit_or_not(lit));
-        MarchSettings settings = settings_of(random);
-        settings.shadows = draw_shadows();
-        const Film all = drawn(random.scene, settings);
-        const double allowed = *rc::gen::element(1e-1, 1e-2, 1e-3);
-        settings.leave_error = allowed;
-        RC_ASSERT(worst(difference(all, drawn(random.scene, settings)) / (allowed + 1e-5)) <= 1.0);
-        settings.leave_error = 0.0;
-        settings.leaping = false;
-        RC_ASSERT(
-          worst_leap(relative(all, drawn(random.scene, settings)) / rounding(random.scene)) <= 1.0);
-      });
-    tell(early, held, worst, 1.0, "of what was allowed", lit ? "lit march" : "march");
-    early.measure(
-      worst_leap.value, 1.0, "of rounding between leaps and none", lit ? "lit march" : "march");
+    bool any = false;
+    double most = 0.0;
+    for (int c = 0; c < 3; ++c)
+    {
+      const double l = std::abs(double(a.radiance[c][i]) - b.radiance[c][i]);
+      const double t = std::abs(double(a.transmittance[c][i]) - b.transmittance[c][i]);
+      any = any || a.transmittance[c][i] < 1.0f || b.transmittance[c][i] < 1.0f;
+      most = std::max({ l, t, most });
+    }
+    met += any;
+    changed += !(most <= bound);
   }
+}
+
 }
 
 TEST(Invariants, HalvedStep)
 {
   HardCase halved("Invariants",
     "halving the step that was chosen for a tolerance of 1e-2 or 1e-3",
-    "the choice has looked at other rays than the picture's, and transfer functions may jump "
-    "anywhere",
-    "changes no pixel by more than the error that was stated and half of it, where a choice from "
-    "1024 rays says "
-    "that it is met: a quarter is the error of the halved steps, the rest what those rays have not "
-    "seen");
+    "the choice has looked at 1024 other rays than the picture's, of which few may meet a small "
+    "thing, and refines by estimates; transfer functions may jump anywhere",
+    "where the choice says that it is met, 99.9 % of all rays that meet matter change by no more "
+    "than the error that was stated and half of it: a quarter is the error of the halved steps. "
+    "Not "
+    "every ray does: single ones that graze what no probe ray met are off by any amount. The count "
+    "may be beyond by three of its standard deviations");
   for (const bool lit : { false, true })
   {
-    Worst worst;
-    const int held = expect_property("halved steps",
-      few,
+    std::int64_t met = 0;
+    std::int64_t changed = 0;
+    const int held = try_scenes("halved steps",
       [&]()
       {
-        const TargetGuard guard;
-        draw_target();
         const RandomScene random = draw_scene(lit_or_not(lit));
         const double tolerance = *rc::gen::element(1e-2, 1e-3);
         Marcher marcher;
-        MarchSettings settings = settings_of(random);
+        MarchSettings settings = settings_of(random, lit);
         settings.shadows = lit ? ShadowMethod::Volume : ShadowMethod::None;
         const StepChoice choice =
           choose_step(marcher, random.scene, tolerance, 1, settings, 0.0, 32);
@@ -453,12 +478,19 @@ TEST(Invariants, HalvedStep)
         settings.refine_error = choice.refine_error;
         const Film film = drawn(random.scene, settings);
         settings.step *= 0.5;
-        const double changed = relative(film, drawn(random.scene, settings));
+        const Film finer = drawn(random.scene, settings);
+        RC_ASSERT(all_finite(film) && all_finite(finer));
         if (choice.met)
         {
-          RC_ASSERT(worst(changed / tolerance) <= 1.5);
+          count_changed(film, finer, 1.5 * tolerance * brightest(film), met, changed);
         }
       });
-    tell(halved, held, worst, 1.5, "of the tolerance", lit ? "lit march" : "march");
+    RecordProperty(lit ? "lit_rays" : "rays", std::to_string(changed) + "/" + std::to_string(met));
+    const double rays = std::max<double>(met, 1.0);
+    halved.measure(changed / rays,
+      1e-3 + 3.0 * std::sqrt(1e-3 / rays),
+      "of the rays that meet matter",
+      march(lit));
+    halved.holds(held, property_trials(few), "random scenes", march(lit));
   }
 }

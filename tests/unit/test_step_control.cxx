@@ -114,6 +114,25 @@ TEST(ChooseStep, MetMeansMet)
   }
 }
 
+// The first volume is nearly even, what needs short steps lies beside it.
+TEST(ChooseStep, LooksAtAllVolumes)
+{
+  const Voxels<float> soft = ball(8.0);
+  const Voxels<float> hard = ball(0.5);
+  Scene scene = scene_of(soft, 3.0);
+  Scene sharp = scene_of(hard, 400.0, 0.9);
+  sharp.volumes[0].data_from_index = placed(glm::dvec3(1.0), glm::dvec3(60.0, 0.0, 0.0));
+  const StepChoice alone = choose(sharp, 0.003);
+  scene.volumes.push_back(sharp.volumes[0]);
+  View view = view_of(scene, glm::dvec3(0.1, 0.2, -1.0), true);
+  view.centre.x += 30.0;
+  view.half_height *= 2.0;
+  scene.camera = view.camera(1.0);
+  const StepChoice both = choose(scene, 0.003);
+  EXPECT_LE(alone.step, 0.5);
+  EXPECT_LE(both.step, 0.5);
+}
+
 // Where no light volume does, rays through one density go cell by cell, whatever was tried before.
 TEST(ChooseShadows, RaysThroughOneDensityAreExact)
 {
