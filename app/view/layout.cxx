@@ -24,11 +24,12 @@ Layout lay_out(int width, int height, const Metrics& metrics, int pictures, bool
     throw std::invalid_argument("a window without pixels or viewports");
   }
   Layout layout;
-  const bool has_panel = panel && 2 * metrics.panel <= width;
-  const int wide = has_panel ? width - metrics.panel : width;
+  const int beside = std::min(metrics.panel, width / 2);
+  const bool has_panel = panel && beside >= 12 * metrics.text; // else its words do not fit
+  const int wide = has_panel ? width - beside : width;
   if (has_panel)
   {
-    layout.panel = { wide, 0, metrics.panel, height };
+    layout.panel = { wide, 0, beside, height };
   }
   const int caption = std::min(metrics.caption, height / 4);
   Box size; // of a picture

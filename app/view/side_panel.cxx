@@ -244,9 +244,12 @@ private:
         const bool on = this->Model.scene.options->shade == "on";
         const bool off = this->Model.scene.options->shade == "off";
         const Box box{ this->Left, this->Y, this->Inner, this->M.line };
-        this->text(this->Left, this->Y + this->M.text, "gradient shading", palette::text, this->Inner);
-        this->text(this->Left + this->Inner, this->Y + this->M.text,
-          on ? "on" : off ? "off" : "as the preset", palette::text, this->Inner / 2, Align::Right);
+        const std::string state = on ? "on" : off ? "off" : "as preset";
+        const int room = text_width(state, this->style(palette::text));
+        this->text(this->Left + this->Inner, this->Y + this->M.text, state, palette::text, this->Inner,
+          Align::Right);
+        this->text(this->Left, this->Y + this->M.text, "gradient shading", palette::text,
+          std::max(this->Inner - room - this->M.margin, 0));
         this->spot(HotSpot::Kind::Shade, box, 0);
         this->Y += height;
       }

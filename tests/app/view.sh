@@ -18,6 +18,7 @@ keys() {
 }
 
 case_ "wrong calls are refused before a window opens"
+blob ../blob.nrrd
 run view
 expect_failure 2
 expect_error 'INPUT'
@@ -39,12 +40,14 @@ expect_failure 1
 expect_error 'brume render ../blob.nrrd'
 
 case_ "a screenshot shows the mappers side by side and ends"
+blob ../blob.nrrd
 run view ../blob.nrrd "${small[@]}" --mappers raymarch,vtk-fixed-point --screenshot a.png --times t.json
 expect_success
 [ "$(head -c 8 a.png | od -An -tx1 | tr -d ' ')" = 89504e470d0a1a0a ] || fail "expected a PNG"
 grep -q first_picture_seconds t.json || fail "expected how long it took"
 
 case_ "keys that are played change the scene that is saved, and render draws it"
+blob ../blob.nrrd
 keys ../keys.log l Left g b p question question w Ctrl+s F2 F3
 run view ../blob.nrrd "${small[@]}" --mappers raymarch,smart --tolerance 0.05 --play ../keys.log
 expect_success
@@ -59,6 +62,7 @@ run view --scene view-001.json "${small[@]}" --mappers raymarch --screenshot aga
 expect_success
 
 case_ "the mouse turns the camera, and what it did is recorded"
+blob ../blob.nrrd
 cat > ../turn.log << 'END'
 # StreamVersion 1.1
 LeftButtonPressEvent 100 200 0 0 0 0

@@ -151,6 +151,8 @@ TEST(Layout, NothingOverlapsAndNothingIsLost)
         }
   EXPECT_FALSE(lay_out(800, 600, Metrics(1.0), 1, true).panel.empty());
   EXPECT_FALSE(lay_out(2560, 1440, Metrics(2.0), 2, true).panel.empty());
+  EXPECT_FALSE(lay_out(800, 600, Metrics(2.0), 1, true).panel.empty());
+  EXPECT_TRUE(lay_out(400, 600, Metrics(2.0), 1, true).panel.empty());
   EXPECT_THROW(lay_out(0, 100, Metrics(1.0), 1, true), std::invalid_argument);
 }
 
