@@ -144,7 +144,7 @@ StockRenderer::StockRenderer(const VolumeScene& scene, MapperKind kind, double s
     in.observe(in.Gpu);
   }
   apply(scene.options.modes, this->mapper(), in.Volume->GetProperty());
-  apply_cropping_of_voxels(scene.cropping, in.Image, this->mapper()); // the image lost its place
+  apply_cropping_of_voxels(cropping_of_voxels(scene), in.Image, this->mapper()); // the image lost its place
   in.observe(in.Window);
   in.Window->SetOffScreenRendering(1);
   in.Window->SetMultiSamples(0);

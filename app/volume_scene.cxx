@@ -24,6 +24,7 @@
 #include "vtkImageData.h"
 #include "vtkLightCollection.h"
 #include "vtkMath.h"
+#include "vtkAbstractVolumeMapper.h"
 #include "vtkBoundingBox.h"
 #include "vtkColorTransferFunction.h"
 #include "vtkNew.h"
@@ -60,31 +61,55 @@ double largest(const Triple& v)
   return std::max({ v[0], v[1], v[2] });
 }
 
+/// The volume as Transport sees it, by a mapper that draws nothing.
+class PlainScene
+{
+public:
+  /// Throws Failure for a volume that cannot be drawn.
+  explicit PlainScene(const VolumeScene& scene)
+    : Volume(scene.volume)
+    , Former(scene.volume->GetMapper())
+  {
+    this->Mapper->SetInputDataObject(scene.input.data());
+    this->Mapper->SetExtinction(largest(scene.options.extinction));
+    apply(scene.options.modes, this->Mapper, scene.volume->GetProperty());
+    scene.volume->SetMapper(this->Mapper);
+    std::string error;
+    vtkNew<vtkCallbackCommand> observer; // in place of the standard error stream
+    observer->SetClientData(&error);
+    observer->SetCallback([](vtkObject*, unsigned long, void* data, void* text)
+      { *static_cast<std::string*>(data) = static_cast<const char*>(text); });
+    const unsigned long tag = this->Mapper->AddObserver(vtkCommand::ErrorEvent, observer);
+    vtkNew<vtkCamera> camera;
+    this->Plain =
+      this->Mapper->UpdateScene(scene.volume, camera, scene.lights, scene.width(), scene.height());
+    this->Mapper->RemoveObserver(tag);
+    if (!this->Plain)
+    {
+      this->Volume->SetMapper(this->Former);
+      throw Failure(scene.options.input + ": " +
+        (error.empty() ? "it cannot be drawn: see brume info" : words_of_vtk(error)));
+    }
+  }
+  ~PlainScene() { this->Volume->SetMapper(this->Former); }
+  PlainScene(const PlainScene&) = delete;
+  PlainScene& operator=(const PlainScene&) = delete;
+
+  const brume::Scene* scene() const { return this->Plain; }
+
+private:
+  vtkVolume* Volume;
+  vtkSmartPointer<vtkAbstractVolumeMapper> Former;
+  vtkNew<vtkBrumeRayMarchMapper> Mapper;
+  const brume::Scene* Plain = nullptr;
+};
+
 /// The corners, in the world, of each brick of the volume that can be seen with its transfer
 /// functions; of the whole volume where none can.
-std::vector<glm::dvec3> visible_corners_of_volume(VolumeScene& scene)
+std::vector<glm::dvec3> visible_corners_of_volume(const VolumeScene& scene)
 {
-  vtkNew<vtkBrumeRayMarchMapper> mapper;
-  mapper->SetInputDataObject(scene.input.data());
-  mapper->SetExtinction(largest(scene.options.extinction));
-  apply(scene.options.modes, mapper, scene.volume->GetProperty());
-  scene.volume->SetMapper(mapper);
-  std::string error;
-  vtkNew<vtkCallbackCommand> observer; // in place of the standard error stream
-  observer->SetClientData(&error);
-  observer->SetCallback([](vtkObject*, unsigned long, void* data, void* text)
-    { *static_cast<std::string*>(data) = static_cast<const char*>(text); });
-  mapper->AddObserver(vtkCommand::ErrorEvent, observer);
-  vtkNew<vtkCamera> camera;
-  const brume::Scene* plain =
-    mapper->UpdateScene(scene.volume, camera, scene.lights, scene.width(), scene.height());
-  scene.volume->SetMapper(nullptr);
-  if (!plain)
-  {
-    throw Failure(scene.options.input + ": " +
-      (error.empty() ? "it cannot be drawn: see brume info" : words_of_vtk(error)));
-  }
-  scene.cropping = plain->volumes[0].cropping;
+  const PlainScene made(scene);
+  const brume::Scene* const plain = made.scene();
   const BrickRanges& ranges = *plain->volumes[0].ranges;
   LookupTable table;
   const bool density = plain->volumes[0].meaning == ValueMeaning::Density;
@@ -268,8 +293,7 @@ vtkSmartPointer<vtkCamera> make_camera(VolumeScene& scene)
 void check_sample_distance(const VolumeScene& scene)
 {
   constexpr double most_steps = 1 << 20;
-  double bounds[6];
-  scene.input.sparse ? scene.input.sparse->GetBounds(bounds) : scene.input.image->GetBounds(bounds);
+  const std::array<double, 6> bounds = scene.bounds();
   const double diagonal = glm::length(
     glm::dvec3(bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4]));
   const double least = diagonal / most_steps;
@@ -526,6 +550,19 @@ void set_up(const VolumeScene& scene, vtkBrumeSmartVolumeMapper* mapper)
   {
     mapper->SetTolerance(0.0);
   }
+}
+
+std::array<double, 6> VolumeScene::bounds() const
+{
+  std::array<double, 6> bounds;
+  this->input.sparse ? this->input.sparse->GetBounds(bounds.data())
+                     : this->input.image->GetBounds(bounds.data());
+  return bounds;
+}
+
+Cropping cropping_of_voxels(const VolumeScene& scene)
+{
+  return scene.options.modes.cropping ? PlainScene(scene).scene()->volumes[0].cropping : Cropping();
 }
 
 void fit_clipping_range(const VolumeScene& scene)

@@ -6,6 +6,7 @@
 
 #include "vtkSmartPointer.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -36,7 +37,6 @@ struct VolumeScene
   /// With its property, without a mapper; null where surfaces stand in fog alone (no INPUT).
   vtkSmartPointer<vtkVolume> volume;
   vtkSmartPointer<vtkImageData> mask; ///< 0 or 1 for each voxel; null for none
-  Cropping cropping;                  ///< in voxels
   vtkSmartPointer<vtkCamera> camera; ///< clipping range fits the volume
   vtkSmartPointer<vtkLightCollection> lights; ///< as make_lights() settles them
   vtkSmartPointer<vtkBrumeMedium> medium;     ///< null for none
@@ -46,6 +46,7 @@ struct VolumeScene
   double voxel_edge = 1.0;            ///< the smallest edge of a voxel, world units
   double opacity_unit_distance = 1.0; ///< world units
 
+  std::array<double, 6> bounds() const; ///< of the input: x0, x1, y0, y1, z0, z1
   int width() const { return this->options.resolution[0]; }
   int height() const { return this->options.resolution[1]; }
 };
@@ -61,9 +62,12 @@ struct VolumeScene
 VolumeScene make_volume_scene(const SceneOptions& options);
 
 /// Makes anew what these options have other than the scene's: look, light, matter, fog, modes, accuracy.
-/// Input, mask, meshes, cropping's voxels and camera stay, and are not looked at. The options must
+/// Input, mask, meshes and camera stay, and are not looked at. The options must
 /// outlive the scene. Throws Failure for options that do not fit, and leaves the scene as it was.
 void update(VolumeScene& scene, const SceneOptions& options);
+
+/// The cropping planes in voxels, for mappers that do not know the image's place.
+Cropping cropping_of_voxels(const VolumeScene& scene);
 
 /// Fits the camera's clipping range to the volume and the meshes.
 void fit_clipping_range(const VolumeScene& scene);

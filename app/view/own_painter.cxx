@@ -1,4 +1,4 @@
-#include "own_painter.h"
+#include "painter.h"
 
 #include "command.h"
 #include "mesh_scene.h"
@@ -141,6 +141,30 @@ std::vector<ShownEffect> effects_of(const nlohmann::json& statistics, double sec
   }
   return effects;
 }
+
+}
+
+namespace
+{
+
+/// Drafts and first whole pictures are ray marches. The path tracer then adds paths until the tolerance
+/// is met; the smart mapper makes the picture that it promises.
+class OwnPainter : public Painter
+{
+public:
+  explicit OwnPainter(MapperKind kind);
+  ~OwnPainter() override;
+
+  void set_scene(const VolumeScene& scene) override;
+  bool draft(int width, int height, double seconds, const KeepGoing& go) override;
+  bool refine(int width, int height, const KeepGoing& go) override;
+  bool finished() const override;
+  const Shot& shot() const override;
+
+private:
+  struct Internals;
+  std::unique_ptr<Internals> Internal;
+};
 
 }
 
@@ -344,6 +368,11 @@ bool OwnPainter::finished() const
 const Shot& OwnPainter::shot() const
 {
   return this->Internal->Shown;
+}
+
+std::unique_ptr<Painter> make_own_painter(MapperKind kind)
+{
+  return std::make_unique<OwnPainter>(kind);
 }
 
 }

@@ -72,7 +72,18 @@ public:
   virtual const Shot& shot() const = 0;
 };
 
-/// A painter for a mapper. Those of VTK's mappers need a display.
-std::unique_ptr<Painter> make_painter(MapperKind kind);
+/// Painters of Brume's mappers: drafts and first whole pictures are ray marches. The path tracer then adds
+/// paths until the tolerance is met; the smart mapper makes the picture that it promises.
+std::unique_ptr<Painter> make_own_painter(MapperKind kind);
+
+/// Painters of VTK's mappers, which need a display. Drafts have fewer rays, as the mappers' own settings
+/// allow; whole pictures are those of `brume compare`: steps of half a voxel or --sample-distance. What
+/// they do not know of the scene is left out (stock_scene.h).
+std::unique_ptr<Painter> make_stock_painter(MapperKind kind);
+
+inline std::unique_ptr<Painter> make_painter(MapperKind kind)
+{
+  return is_own(kind) ? make_own_painter(kind) : make_stock_painter(kind);
+}
 
 }

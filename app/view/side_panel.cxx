@@ -112,7 +112,11 @@ private:
       return;
     }
     const bool means = control.inapplicable(scene).empty();
-    const std::optional<double> value = means ? control.get(scene) : std::nullopt;
+    std::optional<double> value;
+    if (means)
+    {
+      value = control.get(scene);
+    }
     const std::string number = !means ? "-" : value ? with_unit(*value, this->unit_of(control)) : "off";
     const int baseline = this->Y + this->M.text;
     const int room = text_width(number, this->style(palette::text));

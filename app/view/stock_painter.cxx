@@ -1,4 +1,4 @@
-#include "stock_painter.h"
+#include "painter.h"
 
 #include "stock_renderer.h"
 #include "stock_scene.h"
@@ -23,6 +23,31 @@
 
 namespace brume::app
 {
+
+namespace
+{
+
+/// Drafts have fewer rays, as the mappers' own settings allow; whole pictures are those of `brume
+/// compare`: steps of half a voxel or --sample-distance. What VTK's mappers do not know of the scene is
+/// left out (stock_scene.h).
+class StockPainter : public Painter
+{
+public:
+  explicit StockPainter(MapperKind kind);
+  ~StockPainter() override;
+
+  void set_scene(const VolumeScene& scene) override;
+  bool draft(int width, int height, double seconds, const KeepGoing& go) override;
+  bool refine(int width, int height, const KeepGoing& go) override;
+  bool finished() const override;
+  const Shot& shot() const override;
+
+private:
+  struct Internals;
+  std::unique_ptr<Internals> Internal;
+};
+
+}
 
 struct StockPainter::Internals
 {
@@ -137,6 +162,11 @@ bool StockPainter::finished() const
 const Shot& StockPainter::shot() const
 {
   return this->Internal->Shown;
+}
+
+std::unique_ptr<Painter> make_stock_painter(MapperKind kind)
+{
+  return std::make_unique<StockPainter>(kind);
 }
 
 }

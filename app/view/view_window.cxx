@@ -1,5 +1,6 @@
 #include "view_window.h"
 
+#include "cutting_tools.h"
 #include "recording.h"
 #include "view_style.h"
 #include "x_input.h"
@@ -77,6 +78,7 @@ struct ViewWindow::Internals
   vtkNew<vtkInteractorEventRecorder> Recorder;
   vtkNew<vtkRenderer> Page; ///< what no tile covers
   std::vector<std::unique_ptr<ShownTile>> Tiles;
+  CuttingTools Tools;
   ViewTimes Times;
   Clock::time_point LastFlick = Clock::now();
   Clock::time_point LastTold = LastFlick;
@@ -107,6 +109,10 @@ struct ViewWindow::Internals
     this->Style->Release = [this] { return this->View.release(); };
     this->Style->Key = [this](const std::string& symbol, bool control) { this->key(symbol, control); };
     this->Style->Done = [this] { this->want_picture(); };
+    this->Tools.Boxed = [this](const CuttingTools::Bounds& bounds)
+    { this->View.set_key("cropping", nlohmann::ordered_json(bounds)); };
+    this->Tools.Planed = [this](const CuttingTools::Plane& plane)
+    { this->View.set_key("clipping-plane", nlohmann::ordered_json::array({ plane })); };
   }
 
   void on_event(unsigned long event, void* call)
@@ -411,6 +417,17 @@ struct ViewWindow::Internals
     {
       this->try_to([&] { this->View.open(this->View.scene()); });
     }
+    else if (symbol == "c")
+    {
+      const VolumeScene& scene = this->View.volume_scene();
+      this->Tools.switch_box(this->Interactor, this->Tiles.front()->renderer, scene.bounds(),
+        scene.options.modes.cropping.value_or(scene.bounds()));
+    }
+    else if (symbol == "k")
+    {
+      this->Tools.switch_plane(
+        this->Interactor, this->Tiles.front()->renderer, this->View.volume_scene().bounds());
+    }
     else
     {
       this->View.key(symbol);
@@ -534,7 +551,7 @@ std::vector<std::pair<std::string, std::string>> ViewWindow::keys()
 {
   return { { "Ctrl s", "save the scene, as brume render takes it" }, { "F2", "save the window as PNG" },
     { "F3", "save the first viewport's light as EXR" }, { "F4", "record a turn" },
-    { "F5", "read the input again" }, { "F6", "record all time steps" }, { "q", "quit" },
+    { "F5", "read the input again" }, { "F6", "record all time steps" }, { "c", "a box to crop with" }, { "k", "a plane to cut with" }, { "q", "quit" },
     { "Mouse", "left turns, middle shifts, right or wheel comes nearer" },
     { "Panel", "drag a bar; right click: as it was at first" } };
 }
@@ -544,6 +561,7 @@ ViewWindow::~ViewWindow()
   Internals& in = *this->Internal;
   in.Interactor->RemoveObserver(in.Ear);
   in.Recorder->SetInteractor(nullptr);
+  in.Tools.hide();
   in.Tiles.clear();
 }
 

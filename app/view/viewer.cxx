@@ -322,9 +322,7 @@ ControlScene Viewer::control_scene() const
   ControlScene scene;
   scene.options = &this->Volume.options;
   scene.exposure = this->Parsed->display().exposure;
-  double bounds[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 1.0 };
-  this->Volume.input.sparse ? this->Volume.input.sparse->GetBounds(bounds)
-                            : this->Volume.input.image->GetBounds(bounds);
+  const std::array<double, 6> bounds = this->Volume.bounds();
   scene.size = std::max({ bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4] });
   scene.size = scene.size > 0.0 ? scene.size : 1.0;
   scene.first_sun = this->first_sun();

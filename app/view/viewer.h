@@ -85,6 +85,9 @@ public:
   bool key(const std::string& symbol);
   /// All keys that key() knows, for people, and what they do.
   static std::vector<std::pair<std::string, std::string>> keys();
+  /// Sets a key of the scene, as a scene file has it; null takes it out. What does not fit is told in the
+  /// panel, and the scene stays.
+  void set_key(const std::string& key, const nlohmann::ordered_json& value);
   /// The camera as it was at first.
   void reset_camera();
   /// The camera was moved by who has it.

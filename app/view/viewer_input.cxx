@@ -160,6 +160,17 @@ std::vector<std::pair<std::string, std::string>> Viewer::keys()
   return all;
 }
 
+void Viewer::set_key(const std::string& key, const ordered_json& value)
+{
+  ordered_json scene = this->Scene;
+  scene.erase(key);
+  if (!value.is_null())
+  {
+    scene[key] = value;
+  }
+  this->set(scene);
+}
+
 bool Viewer::press(int x, int y, bool right_button, bool twice)
 {
   this->Hold = Held::Nothing;

@@ -1,0 +1,134 @@
+#include "cutting_tools.h"
+
+#include "vtkBoxRepresentation.h"
+#include "vtkBoxWidget2.h"
+#include "vtkCallbackCommand.h"
+#include "vtkCommand.h"
+#include "vtkImplicitPlaneRepresentation.h"
+#include "vtkImplicitPlaneWidget2.h"
+#include "vtkNew.h"
+#include "vtkProperty.h"
+#include "vtkRenderWindowInteractor.h"
+#include "vtkRenderer.h"
+
+#include <algorithm>
+
+namespace brume::app
+{
+
+namespace
+{
+
+/// No thinner than this part of the volume's edge.
+constexpr double thinnest = 1e-3;
+
+}
+
+struct CuttingTools::Internals
+{
+  vtkNew<vtkBoxWidget2> Box;
+  vtkNew<vtkBoxRepresentation> BoxShape;
+  vtkNew<vtkImplicitPlaneWidget2> Plane;
+  vtkNew<vtkImplicitPlaneRepresentation> PlaneShape;
+  vtkNew<vtkCallbackCommand> Ear;
+  CuttingTools* Owner = nullptr;
+  Bounds Volume{};
+
+  void told(vtkObject* caller)
+  {
+    if (caller == this->Box.Get() && this->Owner->Boxed)
+    {
+      const double* b = this->BoxShape->GetBounds();
+      Bounds bounds;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const double low = this->Volume[2 * axis];
+        const double high = this->Volume[2 * axis + 1];
+        const double least = thinnest * (high - low);
+        bounds[2 * axis] = std::clamp(b[2 * axis], low, high - least);
+        bounds[2 * axis + 1] = std::clamp(b[2 * axis + 1], bounds[2 * axis] + least, high);
+      }
+      this->Owner->Boxed(bounds);
+    }
+    else if (caller == this->Plane.Get() && this->Owner->Planed)
+    {
+      double normal[3], origin[3];
+      this->PlaneShape->GetNormal(normal);
+      this->PlaneShape->GetOrigin(origin);
+      this->Owner->Planed({ normal[0], normal[1], normal[2],
+        -(normal[0] * origin[0] + normal[1] * origin[1] + normal[2] * origin[2]) });
+    }
+  }
+};
+
+CuttingTools::CuttingTools()
+  : Internal(std::make_unique<Internals>())
+{
+  Internals& in = *this->Internal;
+  in.Owner = this;
+  in.Ear->SetClientData(&in);
+  in.Ear->SetCallback([](vtkObject* caller, unsigned long, void* data, void*)
+    { static_cast<Internals*>(data)->told(caller); });
+  in.Box->SetRepresentation(in.BoxShape);
+  in.Box->RotationEnabledOff();
+  in.Box->AddObserver(vtkCommand::InteractionEvent, in.Ear);
+  in.BoxShape->SetPlaceFactor(1.0);
+  in.BoxShape->GetOutlineProperty()->SetColor(0.46, 0.75, 1.0);
+  in.BoxShape->GetSelectedOutlineProperty()->SetColor(1.0, 0.77, 0.43);
+  in.Plane->SetRepresentation(in.PlaneShape);
+  in.Plane->AddObserver(vtkCommand::InteractionEvent, in.Ear);
+  in.PlaneShape->SetPlaceFactor(1.0);
+  in.PlaneShape->DrawPlaneOff(); // it would hide the picture
+  in.PlaneShape->OutlineTranslationOff();
+  in.PlaneShape->ScaleEnabledOff();
+}
+
+CuttingTools::~CuttingTools()
+{
+  this->hide();
+}
+
+void CuttingTools::switch_box(
+  vtkRenderWindowInteractor* interactor, vtkRenderer* renderer, const Bounds& volume, const Bounds& now)
+{
+  Internals& in = *this->Internal;
+  if (in.Box->GetEnabled())
+  {
+    in.Box->Off();
+    return;
+  }
+  in.Volume = volume;
+  in.Box->SetInteractor(interactor);
+  in.Box->SetDefaultRenderer(renderer);
+  Bounds place = now;
+  in.BoxShape->PlaceWidget(place.data());
+  in.Box->On();
+}
+
+void CuttingTools::switch_plane(
+  vtkRenderWindowInteractor* interactor, vtkRenderer* renderer, const Bounds& volume)
+{
+  Internals& in = *this->Internal;
+  if (in.Plane->GetEnabled())
+  {
+    in.Plane->Off();
+    return;
+  }
+  in.Volume = volume;
+  in.Plane->SetInteractor(interactor);
+  in.Plane->SetDefaultRenderer(renderer);
+  Bounds place = volume;
+  in.PlaneShape->PlaceWidget(place.data());
+  in.PlaneShape->SetOrigin(0.5 * (volume[0] + volume[1]), 0.5 * (volume[2] + volume[3]),
+    0.5 * (volume[4] + volume[5]));
+  in.PlaneShape->SetNormal(0.0, 1.0, 0.0);
+  in.Plane->On();
+}
+
+void CuttingTools::hide()
+{
+  this->Internal->Box->Off();
+  this->Internal->Plane->Off();
+}
+
+}

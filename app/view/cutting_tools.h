@@ -1,0 +1,44 @@
+// A box and a plane that are dragged in a viewport, and cut the volume.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+
+class vtkRenderWindowInteractor;
+class vtkRenderer;
+
+namespace brume::app
+{
+
+/// VTK's box and plane widgets. All places are world units.
+class CuttingTools
+{
+public:
+  using Bounds = std::array<double, 6>; ///< x0, x1, y0, y1, z0, z1
+  using Plane = std::array<double, 4>;  ///< what is drawn has a x + b y + c z + d ≥ 0
+
+  CuttingTools();
+  ~CuttingTools();
+  CuttingTools(const CuttingTools&) = delete;
+  CuttingTools& operator=(const CuttingTools&) = delete;
+
+  /// Called whenever the box or the plane was dragged.
+  std::function<void(const Bounds&)> Boxed;
+  std::function<void(const Plane&)> Planed;
+
+  /// Shows the box, around `now` at first, or hides it; what is cut stays.
+  ///@{
+  void switch_box(
+    vtkRenderWindowInteractor* interactor, vtkRenderer* renderer, const Bounds& volume, const Bounds& now);
+  void switch_plane(
+    vtkRenderWindowInteractor* interactor, vtkRenderer* renderer, const Bounds& volume);
+  ///@}
+  void hide();
+
+private:
+  struct Internals;
+  std::unique_ptr<Internals> Internal;
+};
+
+}
