@@ -52,5 +52,6 @@ void add_generate(CLI::App& program);
 void add_info(CLI::App& program);
 void add_plan(CLI::App& program);
 void add_render(CLI::App& program);
+void add_view(CLI::App& program);
 
 }

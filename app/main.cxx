@@ -43,6 +43,7 @@ int main(int argc, char** argv)
   add_info(program);
   add_plan(program);
   add_render(program);
+  add_view(program);
 
   try
   {

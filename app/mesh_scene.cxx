@@ -175,6 +175,7 @@ public:
     : Window(window)
     , Lights(lights_of_surfaces(scene))
   {
+    renderer->RemoveAllLights();
     for (vtkLight* light : this->Lights)
     {
       this->Intensities.push_back(light->GetIntensity());
@@ -183,11 +184,15 @@ public:
   }
 
   /// R, G, B a pixel; of pixels without a surface it means nothing.
-  std::vector<float> draw()
+  std::vector<float> draw(bool draft)
   {
     std::vector<float> rgb;
     for (const double exposure : { 1.0 / 64.0, 1.0 / 8.0, 1.0, 8.0 }) // the brightest last
     {
+      if (draft && exposure != 1.0)
+      {
+        continue;
+      }
       for (std::size_t i = 0; i < this->Lights.size(); ++i)
       {
         this->Lights[i]->SetIntensity(exposure * this->Intensities[i]);
@@ -201,7 +206,7 @@ public:
       {
         // Where this frame is not saturated it is finer than the ones before.
         const int byte = bytes->GetValue(static_cast<vtkIdType>(i));
-        if (byte < 250 || exposure < 1.0 / 32.0)
+        if (byte < 250 || exposure < 1.0 / 32.0 || draft)
         {
           rgb[i] = static_cast<float>(byte / 255.0 / exposure);
         }
@@ -300,6 +305,63 @@ vtkSmartPointer<vtkActor> actor_of(vtkPolyData* mesh)
   return actor;
 }
 
+struct MeshStage::Internals
+{
+  vtkNew<vtkRenderer> Renderer;
+  vtkNew<vtkRenderWindow> Window;
+  std::vector<vtkSmartPointer<vtkPolyData>> Meshes; ///< that the renderer has
+  std::string Error;
+};
+
+MeshStage::MeshStage()
+  : Internal(std::make_unique<Internals>())
+{
+  Internals& in = *this->Internal;
+  vtkNew<vtkCallbackCommand> ear;
+  ear->SetClientData(&in.Error);
+  ear->SetCallback([](vtkObject*, unsigned long, void* data, void* text)
+    { *static_cast<std::string*>(data) = static_cast<const char*>(text); });
+  in.Window->AddObserver(vtkCommand::ErrorEvent, ear);
+  in.Window->SetOffScreenRendering(1);
+  in.Window->SetMultiSamples(0); // one depth a pixel
+  in.Window->AddRenderer(in.Renderer);
+  in.Renderer->AutomaticLightCreationOff();
+}
+
+MeshStage::~MeshStage() = default;
+
+SurfacePicture MeshStage::draw(const VolumeScene& scene, bool draft)
+{
+  Internals& in = *this->Internal;
+  const bool large = std::max(scene.width(), scene.height()) > 4096; // frames have a largest size
+  const int fine = large || draft ? 1 : 2;
+  in.Window->SetSize(fine * scene.width(), fine * scene.height());
+  if (in.Meshes != scene.meshes)
+  {
+    in.Renderer->RemoveAllViewProps();
+    in.Meshes = scene.meshes;
+    for (vtkPolyData* mesh : in.Meshes)
+    {
+      in.Renderer->AddActor(actor_of(mesh));
+    }
+  }
+  double background[3];
+  std::copy(scene.options.background.begin(), scene.options.background.end(), background);
+  in.Renderer->SetBackground(background);
+  in.Renderer->SetActiveCamera(scene.camera);
+  in.Error.clear();
+  const std::vector<float> rgb = ManyExposures(in.Window, in.Renderer, scene).draw(draft);
+  if (!in.Error.empty())
+  {
+    std::replace(in.Error.begin(), in.Error.end(), '\n', ' ');
+    throw Failure("--mesh", in.Error, "leave it out");
+  }
+  std::vector<float> depths(rgb.size() / 3);
+  in.Window->GetZbufferData(
+    0, 0, fine * scene.width() - 1, fine * scene.height() - 1, depths.data());
+  return averaged(scene, fine, rgb, depths);
+}
+
 SurfacePicture draw_meshes(const VolumeScene& scene)
 {
   if (scene.meshes.empty())
@@ -311,37 +373,7 @@ SurfacePicture draw_meshes(const VolumeScene& scene)
   {
     throw Failure("--mesh", display.reason(), "or leave it out: volumes alone need no display");
   }
-  std::string error;
-  vtkNew<vtkCallbackCommand> ear;
-  ear->SetClientData(&error);
-  ear->SetCallback([](vtkObject*, unsigned long, void* data, void* text)
-    { *static_cast<std::string*>(data) = static_cast<const char*>(text); });
-  vtkNew<vtkRenderer> renderer;
-  vtkNew<vtkRenderWindow> window;
-  window->AddObserver(vtkCommand::ErrorEvent, ear);
-  window->SetOffScreenRendering(1);
-  window->SetMultiSamples(0); // one depth a pixel
-  const int fine = std::max(scene.width(), scene.height()) <= 4096 ? 2 : 1; // frames have a largest size
-  window->SetSize(fine * scene.width(), fine * scene.height());
-  window->AddRenderer(renderer);
-  for (vtkPolyData* mesh : scene.meshes)
-  {
-    renderer->AddActor(actor_of(mesh));
-  }
-  double background[3];
-  std::copy(scene.options.background.begin(), scene.options.background.end(), background);
-  renderer->SetBackground(background);
-  renderer->AutomaticLightCreationOff();
-  renderer->SetActiveCamera(scene.camera);
-  const std::vector<float> rgb = ManyExposures(window, renderer, scene).draw();
-  if (!error.empty())
-  {
-    std::replace(error.begin(), error.end(), '\n', ' ');
-    throw Failure("--mesh", error, "leave it out");
-  }
-  std::vector<float> depths(rgb.size() / 3);
-  window->GetZbufferData(0, 0, fine * scene.width() - 1, fine * scene.height() - 1, depths.data());
-  return averaged(scene, fine, rgb, depths);
+  return MeshStage().draw(scene);
 }
 
 std::vector<float> over_scene(

@@ -3,6 +3,7 @@
 
 #include "vtkSmartPointer.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,25 @@ struct SurfacePicture
 {
   std::vector<float> rgb;   ///< R, G, B a pixel, rows from the bottom up; the background elsewhere
   std::vector<float> depth; ///< as vtkBrumeVolumeMapper::SetSurfaceDepth takes it
+};
+
+/// VTK's drawing of surfaces in a window that nobody sees, kept from picture to picture. Needs a display
+/// (private_display.h), which must be there before it is made.
+class MeshStage
+{
+public:
+  MeshStage();
+  ~MeshStage();
+  MeshStage(const MeshStage&) = delete;
+  MeshStage& operator=(const MeshStage&) = delete;
+
+  /// As draw_meshes(). A draft has one sample a pixel, and light beyond white is cut off. Throws Failure
+  /// for what VTK complains of.
+  SurfacePicture draw(const VolumeScene& scene, bool draft = false);
+
+private:
+  struct Internals;
+  std::unique_ptr<Internals> Internal;
 };
 
 /// Draws the scene's meshes, diffuse, in the light of its lights, environment, sky and ground; the

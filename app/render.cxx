@@ -189,7 +189,7 @@ Drawn draw_stock(const VolumeScene& scene, const MapperName& mapper)
   }
   // What VTK's own mappers take by default when nobody tells them: half a voxel here, as compare.
   const double step = scene.options.sample_distance.value_or(0.5 * scene.voxel_edge);
-  vtkBrumeVolumeMapper::ResetClippingRange(scene.volume, scene.camera);
+  fit_clipping_range(scene);
   StockRenderer renderer(scene, mapper.kind, step);
   Drawn drawn;
   // The first render also builds tables and uploads textures.

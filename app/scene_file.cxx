@@ -1,7 +1,7 @@
 #include "scene_file.h"
 
 #include "command.h"
-#include "medium_options.h"
+#include "display_options.h"
 #include "option_checks.h"
 #include "scene_keys.h"
 #include "scene_lists.h"
@@ -18,6 +18,7 @@
 #include <memory>
 #include <set>
 #include <sstream>
+#include <utility>
 
 namespace brume::app
 {
@@ -53,6 +54,9 @@ std::string read_text(const std::string& path)
   }
   return text;
 }
+
+constexpr const char* display_keys[] = { "--exposure", "--display-curve" };
+constexpr const char* list_keys[] = { "lights", "lobes", "colour", "opacity" };
 
 /// The object in a file; a key that is given twice is refused, as it would silently count once.
 json read_object(const std::string& path)
@@ -110,9 +114,11 @@ std::string without_name(const std::string& message, const CLI::Option& option)
 class SceneKeys
 {
 public:
-  SceneKeys(CLI::App& command, MediumOptions& medium)
-    : Medium(medium)
+  SceneKeys(CLI::App& command, SceneOptions& options)
+    : Command(command)
+    , Options(options)
   {
+    add_display_options(this->Shown, this->Display);
     for (CLI::Option* option : command.get_options())
     {
       if (option != command.get_help_ptr() && option->get_name() != "--scene")
@@ -122,15 +128,22 @@ public:
     }
   }
 
-  void read(const std::string& path) const
+  void read(const std::string& path)
   {
-    const json object = read_object(path);
-    const std::string folder = std::filesystem::path(path).parent_path().string();
+    this->read(read_object(path), path, std::filesystem::path(path).parent_path().string());
+  }
+
+  /// `path` is for messages; relative names of files are taken from `folder`.
+  void read(const json& object, const std::string& path, const std::string& folder)
+  {
+    this->add_display_keys();
     for (const auto& [name, value] : object.items())
     {
       this->check_name(path, name);
     }
     this->check_exclusions(path, object);
+    // What the command line classifies by takes the place of the file's transfer functions.
+    const bool classified = !this->is_told("extinction") && !this->is_told("preset");
     std::vector<const SceneKey*> told; // by the file alone
     for (const SceneKey& key : this->Keys)
     {
@@ -149,11 +162,27 @@ public:
     {
       run(*key, path + ": /" + key->name);
     }
-    this->read_lists(path, object);
+    this->read_lists(path, object, classified);
   }
 
-  ordered_json schema() const
+  /// What the options were told, by the command line and the file.
+  ordered_json told()
   {
+    this->add_display_keys();
+    ordered_json scene;
+    for (const SceneKey& key : this->Keys)
+    {
+      if (key.option->count() > 0)
+      {
+        scene[key.name] = value_of(key);
+      }
+    }
+    return scene;
+  }
+
+  ordered_json schema()
+  {
+    this->add_display_keys();
     ordered_json properties;
     properties["$schema"] = { { "type", "string" },
       { "description", "For editors: where this schema is" } };
@@ -163,12 +192,14 @@ public:
     }
     properties["lights"] = lights_schema();
     properties["lobes"] = lobes_schema();
+    properties["colour"] = colour_schema();
+    properties["opacity"] = opacity_schema();
     ordered_json schema;
     schema["$schema"] = "https://json-schema.org/draft/2020-12/schema";
     schema["title"] = "A scene of Brume";
     schema["description"] = "What brume render, compare and plan take with --scene FILE: the options "
-                            "of the command line without their dashes, and lists of lights and lobes. "
-                            "The command line wins. Defaults stand in brackets.";
+                            "of the command line without their dashes, and lists of lights, lobes and "
+                            "transfer functions. The command line wins. Defaults stand in brackets.";
     schema["type"] = "object";
     schema["properties"] = properties;
     schema["additionalProperties"] = false;
@@ -176,9 +207,24 @@ public:
   }
 
 private:
+  /// How pictures of 8 bits show light is a key for all: where the subcommand makes none, it is checked
+  /// and means nothing.
+  void add_display_keys()
+  {
+    if (std::exchange(this->HasDisplayKeys, true))
+    {
+      return;
+    }
+    for (const char* name : display_keys)
+    {
+      CLI::Option* own = this->Command.get_option_no_throw(name);
+      this->Keys.push_back(key_of(own ? *own : *this->Shown.get_option(name)));
+    }
+  }
+
   std::vector<std::string> names() const
   {
-    std::vector<std::string> names{ "lights", "lobes" };
+    std::vector<std::string> names(std::begin(list_keys), std::end(list_keys));
     for (const SceneKey& key : this->Keys)
     {
       names.push_back(key.name);
@@ -229,11 +275,13 @@ private:
         }
       }
     }
-    for (const char* name : { "phase", "anisotropy" })
+    static const std::pair<const char*, const char*> lists[] = { { "lobes", "phase" },
+      { "lobes", "anisotropy" }, { "colour", "extinction" }, { "opacity", "extinction" } };
+    for (const auto& [list, name] : lists)
     {
-      if (object.contains("lobes") && object.contains(name))
+      if (object.contains(list) && object.contains(name))
       {
-        refuse("lobes", name);
+        refuse(list, name);
       }
     }
   }
@@ -251,19 +299,30 @@ private:
     }
   }
 
-  void read_lists(const std::string& path, const json& object) const
+  void read_lists(const std::string& path, const json& object, bool classified)
   {
+    MediumOptions& medium = this->Options.medium;
     if (object.contains("lights"))
     {
-      this->Medium.lights = read_lights(object["lights"], path + ": /lights");
+      medium.lights = read_lights(object["lights"], path + ": /lights");
     }
     if (object.contains("lobes"))
     {
       const std::vector<LobeChoice> lobes = read_lobes(object["lobes"], path + ": /lobes");
       if (!this->is_told("anisotropy") && !this->is_told("phase"))
       {
-        this->Medium.lobes = lobes;
+        medium.lobes = lobes;
       }
+    }
+    if (object.contains("colour"))
+    {
+      const auto colour = read_colour(object["colour"], path + ": /colour");
+      this->Options.colour = classified ? colour : decltype(colour){};
+    }
+    if (object.contains("opacity"))
+    {
+      const auto opacity = read_opacity(object["opacity"], path + ": /opacity");
+      this->Options.opacity = classified ? opacity : decltype(opacity){};
     }
   }
 
@@ -273,20 +332,24 @@ private:
       [&](const SceneKey& key) { return key.name == name && key.option->count() > 0; });
   }
 
-  MediumOptions& Medium;
+  CLI::App& Command;
+  SceneOptions& Options;
   std::vector<SceneKey> Keys;
+  bool HasDisplayKeys = false;
+  CLI::App Shown;         ///< for subcommands without options of display
+  DisplayOptions Display; ///< of Shown
 };
 
 }
 
-void add_scene_file(CLI::App& command, MediumOptions& options)
+void add_scene_file(CLI::App& command, SceneOptions& options)
 {
   const auto keys = std::make_shared<SceneKeys>(command, options);
   command
     .add_option_function<std::string>(
       "--scene", [keys](const std::string& path) { keys->read(path); },
-      "Read options from a JSON file, too: their names without dashes, and lists of lights and lobes; "
-      "what the command line says wins")
+      "Read options from a JSON file, too: their names without dashes, and lists of lights, lobes and "
+      "transfer functions; what the command line says wins")
     ->type_name("FILE.json");
 }
 
@@ -295,7 +358,96 @@ ordered_json scene_schema()
   CLI::App command;
   SceneOptions options;
   add_scene_options(command, options, "preset");
-  return SceneKeys(command, options.medium).schema();
+  return SceneKeys(command, options).schema();
+}
+
+ordered_json scene_of(CLI::App& command)
+{
+  // The subcommand's own options are no part of a scene.
+  CLI::App keys;
+  SceneOptions unused;
+  DisplayOptions unused_too;
+  add_scene_options(keys, unused, "preset");
+  add_display_options(keys, unused_too);
+  const ordered_json told = SceneKeys(command, unused).told();
+  ordered_json scene;
+  for (const auto& [name, value] : told.items())
+  {
+    if (name == "input" || keys.get_option_no_throw("--" + name))
+    {
+      scene[name] = value;
+    }
+  }
+  const CLI::Option* const file = command.get_option_no_throw("--scene");
+  if (file && file->count() > 0)
+  {
+    const json object = read_object(file->results().back());
+    const bool phase = scene.contains("phase") || scene.contains("anisotropy");
+    const bool other_colours = scene.contains("extinction") ||
+      (scene.contains("preset") && scene["preset"] != object.value("preset", ""));
+    for (const char* name : list_keys)
+    {
+      const bool silenced = name == std::string("lobes") ? phase
+        : name == std::string("lights")                  ? false
+                                                         : other_colours;
+      if (object.contains(name) && !silenced)
+      {
+        scene[name] = object[name];
+      }
+    }
+  }
+  for (const char* name : { "quiet", "verbose" })
+  {
+    scene.erase(name);
+  }
+  return scene;
+}
+
+ordered_json read_scene(const std::string& path)
+{
+  const std::string folder = std::filesystem::absolute(path).parent_path().string();
+  const ordered_json object = read_object(path);
+  CLI::App command;
+  SceneOptions options;
+  add_scene_options(command, options, "preset");
+  SceneKeys keys(command, options);
+  keys.read(object, path, folder);
+  ordered_json scene = keys.told();
+  for (const char* name : list_keys)
+  {
+    if (object.contains(name))
+    {
+      scene[name] = object[name];
+    }
+  }
+  return scene;
+}
+
+struct ParsedScene::Internals
+{
+  CLI::App Command;
+  SceneOptions Options;
+  DisplayOptions Display;
+};
+
+ParsedScene::ParsedScene(const ordered_json& scene, const std::string& place)
+  : Internal(std::make_shared<Internals>())
+{
+  Internals& in = *this->Internal;
+  add_scene_options(in.Command, in.Options, "preset");
+  add_display_options(in.Command, in.Display);
+  SceneKeys(in.Command, in.Options).read(scene, place, {});
+  check(in.Options);
+}
+
+const SceneOptions& ParsedScene::options() const
+{
+  return this->Internal->Options;
+}
+
+const DisplayOptions& ParsedScene::display() const
+{
+  return this->Internal->Display;
 }
 
 }

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <memory>
 #include <string>
 
 namespace CLI
@@ -14,20 +15,46 @@ class App;
 namespace brume::app
 {
 
-struct MediumOptions;
+struct DisplayOptions;
+struct SceneOptions;
 
 /// Declares --scene FILE on a subcommand, whose options so far are the keys that a file may hold;
 /// to be called after the scene options and before those of the subcommand alone. What the file says is
 /// given to the options as though the command line had said it, where the command line says nothing;
-/// "lights" and "lobes" go to `options`, which must outlive the parse. An option of the command line
+/// the lists ("lights", "lobes", "colour", "opacity") go to `options`, which must outlive the parse. An option of the command line
 /// also silences those of the file that it excludes.
 ///
 /// The parse throws Failure (BadCall), "FILE: /KEY: what is wrong: what to do" (the place as a JSON
 /// pointer), for what the file may not say, and Failed for a file that cannot be read.
-void add_scene_file(CLI::App& command, MediumOptions& options);
+void add_scene_file(CLI::App& command, SceneOptions& options);
 
 /// The JSON schema of scene files, with the options' own descriptions: what
 /// docs/user/scene.schema.json holds.
 nlohmann::ordered_json scene_schema();
+
+/// What a subcommand with scene options was told, by its command line and its scene file, as a scene
+/// file of its own; names of files are absolute. To be called after the parse. Without "quiet" and
+/// "verbose", which are no part of a scene.
+nlohmann::ordered_json scene_of(CLI::App& command);
+
+/// A scene file with absolute names of files, checked. Throws Failure as the parse of --scene does.
+nlohmann::ordered_json read_scene(const std::string& path);
+
+/// The options that a scene file's object stands for; copies share them.
+class ParsedScene
+{
+public:
+  /// `place` stands before the JSON pointer in messages; relative names of files are taken from the
+  /// current folder. Throws Failure as the parse of --scene does, and for options that do not fit
+  /// together.
+  explicit ParsedScene(const nlohmann::ordered_json& scene, const std::string& place = "scene");
+
+  const SceneOptions& options() const;
+  const DisplayOptions& display() const;
+
+private:
+  struct Internals;
+  std::shared_ptr<Internals> Internal;
+};
 
 }

@@ -312,6 +312,75 @@ std::vector<std::string> words_of(const SceneKey& key, const json& value, const 
   return {};
 }
 
+ordered_json value_of(const SceneKey& key)
+{
+  const std::vector<std::string> words = key.option->results();
+  const auto numbers_of = [](const std::vector<std::string>& texts)
+  {
+    ordered_json list = ordered_json::array();
+    for (const std::string& text : texts)
+    {
+      for (const double number : split_numbers(text))
+      {
+        list.push_back(number);
+      }
+    }
+    return list;
+  };
+  const auto absolute = [](const std::string& path)
+  { return path.empty() ? path : std::filesystem::absolute(path).lexically_normal().string(); };
+  switch (key.kind)
+  {
+    case KeyKind::Flag:
+      return true;
+    case KeyKind::Number:
+      return numbers_of(words).at(0);
+    case KeyKind::Numbers:
+    {
+      const ordered_json list = numbers_of(words);
+      return list.size() == 1 ? list.at(0) : list;
+    }
+    case KeyKind::Rows:
+    {
+      ordered_json rows = ordered_json::array();
+      for (const std::string& word : words)
+      {
+        rows.push_back(numbers_of({ word }));
+      }
+      return rows;
+    }
+    case KeyKind::Word:
+    case KeyKind::Text:
+      return words.back();
+    case KeyKind::Input:
+      return words.back().rfind("sample:", 0) == 0 ? words.back() : absolute(words.back());
+    case KeyKind::File:
+      return absolute(words.back());
+    case KeyKind::Texts:
+      return words;
+    case KeyKind::Files:
+    {
+      ordered_json paths = ordered_json::array();
+      for (const std::string& word : words)
+      {
+        paths.push_back(absolute(word));
+      }
+      return paths;
+    }
+    case KeyKind::Switches:
+    {
+      ordered_json switches = ordered_json::object();
+      for (const std::string& word : words)
+      {
+        const std::size_t at = word.rfind('=');
+        switches[word.substr(0, at)] = word.substr(at) == "=on";
+      }
+      return switches;
+    }
+  }
+  return {};
+}
+
 ordered_json schema_of(const SceneKey& key)
 {
   const ordered_json number{ { "type", "number" } };

@@ -54,6 +54,10 @@ std::string expected_of(const SceneKey& key);
 std::vector<std::string> words_of(const SceneKey& key, const nlohmann::json& value,
   const std::string& place, const std::string& folder);
 
+/// What the key's option was told, as words_of() takes it; names of files are absolute. To be called for
+/// an option that was told something.
+nlohmann::ordered_json value_of(const SceneKey& key);
+
 /// The key's part of the JSON schema.
 nlohmann::ordered_json schema_of(const SceneKey& key);
 

@@ -4,6 +4,7 @@
 #include "option_checks.h"
 
 #include <algorithm>
+#include <array>
 
 namespace brume::app
 {
@@ -226,6 +227,60 @@ std::vector<Item> read_list(const json& list, const std::string& place, const ch
   return items;
 }
 
+/// A point of a transfer function: a value of the data, and what it becomes, from 0 to 1.
+template <std::size_t Count>
+std::array<double, Count> read_point(const json& list, const std::string& place)
+{
+  std::array<double, Count> point{};
+  const bool right = list.is_array() && list.size() == Count &&
+    std::all_of(list.begin(), list.end(), [](const json& v) { return v.is_number(); });
+  if (!right)
+  {
+    throw Failure(place, "it is not a list of " + std::to_string(Count) + " numbers", remedy, BadCall);
+  }
+  for (std::size_t i = 0; i < Count; ++i)
+  {
+    point[i] = list[i].get<double>();
+    if (i > 0 && !(point[i] >= 0.0 && point[i] <= 1.0))
+    {
+      throw Failure(place + "/" + std::to_string(i), list[i].dump() + " is not a number from 0 to 1",
+        remedy, BadCall);
+    }
+  }
+  return point;
+}
+
+ColourPoint read_colour_point(const json& list, const std::string& place)
+{
+  const auto p = read_point<4>(list, place);
+  return { p[0], p[1], p[2], p[3] };
+}
+
+OpacityPoint read_opacity_point(const json& list, const std::string& place)
+{
+  const auto p = read_point<2>(list, place);
+  return { p[0], p[1] };
+}
+
+/// Points in the order of their values.
+template <class Point>
+std::vector<Point> checked(std::vector<Point> points, const std::string& place)
+{
+  if (points.empty())
+  {
+    throw Failure(place, "it has no points", remedy, BadCall);
+  }
+  for (std::size_t i = 1; i < points.size(); ++i)
+  {
+    if (!(points[i].value > points[i - 1].value))
+    {
+      throw Failure(place + "/" + std::to_string(i), "its value is not above the one before it",
+        "put the points in order, each value once", BadCall);
+    }
+  }
+  return points;
+}
+
 ordered_json described(ordered_json schema, const char* text)
 {
   schema["description"] = text;
@@ -237,6 +292,13 @@ ordered_json triple_schema(const char* text)
   return described({ { "type", "array" }, { "items", { { "type", "number" } } }, { "minItems", 3 },
                      { "maxItems", 3 } },
     text);
+}
+
+ordered_json points_schema(int count, const char* text)
+{
+  const ordered_json point{ { "type", "array" }, { "items", { { "type", "number" } } },
+    { "minItems", count }, { "maxItems", count } };
+  return described({ { "type", "array" }, { "items", point }, { "minItems", 1 } }, text);
 }
 
 ordered_json number_schema(const char* text)
@@ -254,6 +316,51 @@ std::vector<LightChoice> read_lights(const json& list, const std::string& place)
 std::vector<LobeChoice> read_lobes(const json& list, const std::string& place)
 {
   return read_list<LobeChoice>(list, place, "lobes", read_lobe);
+}
+
+std::vector<ColourPoint> read_colour(const json& list, const std::string& place)
+{
+  return checked(read_list<ColourPoint>(list, place, "points", read_colour_point), place);
+}
+
+std::vector<OpacityPoint> read_opacity(const json& list, const std::string& place)
+{
+  return checked(read_list<OpacityPoint>(list, place, "points", read_opacity_point), place);
+}
+
+ordered_json list_of(const std::vector<ColourPoint>& points)
+{
+  ordered_json list = ordered_json::array();
+  for (const ColourPoint& p : points)
+  {
+    list.push_back({ p.value, p.red, p.green, p.blue });
+  }
+  return list;
+}
+
+ordered_json list_of(const std::vector<OpacityPoint>& points)
+{
+  ordered_json list = ordered_json::array();
+  for (const OpacityPoint& p : points)
+  {
+    list.push_back({ p.value, p.opacity });
+  }
+  return list;
+}
+
+ordered_json colour_schema()
+{
+  return points_schema(4,
+    "Colours of values, in place of the preset's: [value, R, G, B] each, the value the data's own, R, G "
+    "and B from 0 to 1; linear between, constant beyond, by rising values");
+}
+
+ordered_json opacity_schema()
+{
+  return points_schema(2,
+    "Opacities of values, in place of the preset's: [value, opacity] each, the value the data's own, "
+    "opacity from 0 to 1 for a way of the opacity unit distance; linear between, constant beyond, by "
+    "rising values");
 }
 
 ordered_json lights_schema()

@@ -280,7 +280,7 @@ void add_scene_options(CLI::App& command, SceneOptions& o, const std::string& sh
   command.add_flag("--quiet", o.quiet, "No progress bar and no remarks");
   command.add_flag("--verbose", o.verbose, "Say more of what is done, and why")
     ->excludes("--quiet");
-  add_scene_file(command, o.medium);
+  add_scene_file(command, o);
 }
 
 void check(const SceneOptions& options)

@@ -4,6 +4,7 @@
 #include "input.h"
 #include "medium_options.h"
 #include "mode_options.h"
+#include "presets.h"
 
 #include <array>
 #include <cstdint>
@@ -52,6 +53,11 @@ struct SceneOptions
   /// Per world unit and unit of density, R, G, B; 0, 0, 0: the values are classified.
   Triple extinction{ 0.0, 0.0, 0.0 };
   std::string preset;                          ///< empty: picked from the data
+  /// Of a scene file, in place of the preset's; values are the data's own. Empty: the preset's.
+  ///@{
+  std::vector<ColourPoint> colour;
+  std::vector<OpacityPoint> opacity;
+  ///@}
   std::optional<double> opacity_unit_distance; ///< world units
   std::optional<double> sample_distance;       ///< world units
   std::string interpolation = "linear";

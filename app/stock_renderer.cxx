@@ -25,6 +25,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 namespace brume::app
 {
@@ -44,6 +45,8 @@ struct StockRenderer::Internals
   Clock::time_point Start;
   double Seconds = 0.0;
   std::string Error;
+  std::function<bool()> Abort = [] { return InterruptionWatch::requested(); };
+  bool Aborted = false;
 
   /// The stock mappers do not all know an image's direction, so it goes into the prop's matrix.
   void place_volume()
@@ -85,8 +88,9 @@ struct StockRenderer::Internals
         }
         else if (event == vtkCommand::AbortCheckEvent)
         {
-          if (InterruptionWatch::requested())
+          if (self->Abort())
           {
+            self->Aborted = true;
             self->Window->SetAbortRender(1);
           }
         }
@@ -162,10 +166,21 @@ StockRenderer::StockRenderer(const VolumeScene& scene, MapperKind kind, double s
 
 StockRenderer::~StockRenderer() = default;
 
+void StockRenderer::set_abort(std::function<bool()> abort)
+{
+  this->Internal->Abort = std::move(abort);
+}
+
+bool StockRenderer::aborted() const
+{
+  return this->Internal->Aborted;
+}
+
 double StockRenderer::render()
 {
   Internals& in = *this->Internal;
   const auto start = Internals::Clock::now();
+  in.Aborted = false;
   in.Window->Render();
   InterruptionWatch::check(in.Scene->options.input.c_str());
   in.Window->WaitForCompletion();
@@ -274,9 +289,13 @@ vtkVolumeMapper* StockRenderer::mapper()
   return vtkVolumeMapper::SafeDownCast(this->Internal->Volume->GetMapper());
 }
 
-std::string StockRenderer::device()
+namespace
 {
-  const char* text = this->Internal->Window->ReportCapabilities();
+
+/// The name of the device that a window draws with.
+std::string device_of(vtkRenderWindow* window)
+{
+  const char* text = window->ReportCapabilities();
   const std::string all = text ? text : "";
   const std::string key = "OpenGL renderer string:";
   const std::size_t at = all.find(key);
@@ -286,6 +305,30 @@ std::string StockRenderer::device()
   }
   const std::size_t begin = all.find_first_not_of(' ', at + key.size());
   return all.substr(begin, all.find('\n', begin) - begin);
+}
+
+}
+
+std::string StockRenderer::device()
+{
+  return device_of(this->Internal->Window);
+}
+
+bool opengl_is_fast()
+{
+  vtkNew<vtkRenderWindow> window;
+  window->SetOffScreenRendering(1);
+  window->SetSize(16, 16);
+  window->Render();
+  const std::string device = device_of(window);
+  for (const char* software : { "llvmpipe", "softpipe", "swrast", "Software" })
+  {
+    if (device.find(software) != std::string::npos)
+    {
+      return false;
+    }
+  }
+  return !device.empty();
 }
 
 }

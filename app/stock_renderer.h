@@ -7,12 +7,16 @@
 #include "Analysis/picture.h"
 #include "Transport/film.h"
 
+#include <functional>
 #include <memory>
 
 class vtkVolumeMapper;
 
 namespace brume::app
 {
+
+/// Whether OpenGL runs on a graphics card here, and not in software. Needs a display.
+bool opengl_is_fast();
 
 /// Draws a scene (of what VTK knows: stock_scene.h) and its surfaces with one of VTK's stock mappers,
 /// step and all settings fixed, no jitter. Needs a
@@ -25,6 +29,12 @@ public:
   /// error.
   StockRenderer(const VolumeScene& scene, MapperKind kind, double step);
   ~StockRenderer();
+
+  /// Asked now and then during a render: true ends it. Default: an interruption of the program does,
+  /// which render() then throws.
+  void set_abort(std::function<bool()> abort);
+  /// Whether the last render was ended so; its picture is none.
+  bool aborted() const;
 
   /// One render; returns the seconds of the volume's render alone: for the CPU mapper from its own
   /// start and end events, for the GPU mapper the frame until the card has finished. Nothing of the

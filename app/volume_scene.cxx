@@ -25,7 +25,9 @@
 #include "vtkLightCollection.h"
 #include "vtkMath.h"
 #include "vtkBoundingBox.h"
+#include "vtkColorTransferFunction.h"
 #include "vtkNew.h"
+#include "vtkPiecewiseFunction.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkRenderer.h"
@@ -38,8 +40,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <iostream>
 #include <sstream>
+#include <type_traits>
+#include <utility>
 
 namespace brume::app
 {
@@ -284,23 +289,125 @@ double smallest_edge(const Input& input)
   return std::min({ std::abs(spacing[0]), std::abs(spacing[1]), std::abs(spacing[2]) });
 }
 
+/// The volume's property: the preset, and what the options have in its place.
+void give_property(VolumeScene& scene)
+{
+  const SceneOptions& options = scene.options;
+  vtkNew<vtkVolumeProperty> property;
+  if (scene.preset)
+  {
+    apply(*scene.preset, scene.input.data(), property);
+  }
+  vtkNew<vtkColorTransferFunction> colour;
+  for (const ColourPoint& p : options.colour)
+  {
+    colour->AddRGBPoint(p.value, p.red, p.green, p.blue);
+  }
+  vtkNew<vtkPiecewiseFunction> opacity;
+  for (const OpacityPoint& p : options.opacity)
+  {
+    opacity->AddPoint(p.value, p.opacity);
+  }
+  for (int c = 0; c < VTK_MAX_VRCOMP; ++c)
+  {
+    if (!options.colour.empty())
+    {
+      property->SetColor(c, colour);
+    }
+    if (!options.opacity.empty())
+    {
+      property->SetScalarOpacity(c, opacity);
+    }
+    if (options.opacity_unit_distance)
+    {
+      property->SetScalarOpacityUnitDistance(c, *options.opacity_unit_distance);
+    }
+    if (options.shade != "preset")
+    {
+      property->SetShade(c, options.shade == "on");
+    }
+  }
+  property->SetInterpolationType(
+    options.interpolation == "nearest" ? VTK_NEAREST_INTERPOLATION : VTK_LINEAR_INTERPOLATION);
+  scene.opacity_unit_distance = property->GetScalarOpacityUnitDistance();
+  scene.volume->SetProperty(property);
+}
+
+/// Lights, medium and fog, in the sky that the scene has.
+void give_light_and_matter(VolumeScene& scene)
+{
+  const SceneOptions& options = scene.options;
+  scene.lights = make_lights(options.medium);
+  scene.medium = make_medium(options.medium, options.extinction);
+  scene.fog = make_fog(options.medium, scene.sky);
+}
+
+/// The preset that the options name, or that suits the data; none for a density.
+void settle_preset(VolumeScene& scene)
+{
+  scene.preset = nullptr;
+  scene.preset_reason.clear();
+  if (scene.options.density())
+  {
+    return;
+  }
+  if (!scene.options.preset.empty())
+  {
+    scene.preset = &find_preset(scene.options.preset);
+    return;
+  }
+  const PresetChoice choice = choose_preset(scene.input.data());
+  scene.preset = choice.preset;
+  scene.preset_reason = choice.reason;
+}
+
+template <class Point>
+bool same_points(const std::vector<Point>& a, const std::vector<Point>& b)
+{
+  static_assert(std::is_trivially_copyable_v<Point>);
+  return a.size() == b.size() &&
+    (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Point)) == 0);
+}
+
+/// Whether the volume's property is made of the same.
+bool same_look(const SceneOptions& a, const SceneOptions& b)
+{
+  return a.preset == b.preset && a.density() == b.density() &&
+    a.opacity_unit_distance == b.opacity_unit_distance && a.shade == b.shade &&
+    a.interpolation == b.interpolation && same_points(a.colour, b.colour) &&
+    same_points(a.opacity, b.opacity) && a.modes.isovalues == b.modes.isovalues;
+}
+
+bool same_sky(const MediumOptions& a, const MediumOptions& b)
+{
+  const auto lit = [](const MediumOptions& o) { return o.has_medium() || o.has_fog(); };
+  return lit(a) == lit(b) && a.sky_radiance == b.sky_radiance &&
+    a.ground_radiance == b.ground_radiance && a.up == b.up && a.environment == b.environment &&
+    a.environment_lights == b.environment_lights && a.environment_rotation == b.environment_rotation;
+}
+
+/// What is behind, and how large an error may be, where the user left it open.
+void settle(SceneOptions& options)
+{
+  options.tolerance = options.tolerance_choice.value_or(options.tolerance);
+  const bool shines = options.medium.has_medium() || options.medium.has_fog();
+  const double behind = options.density() && !shines ? 1.0 : 0.0;
+  options.background =
+    options.background_choice.value_or(std::array<double, 3>{ behind, behind, behind });
+}
+
 }
 
 VolumeScene make_volume_scene(const SceneOptions& options)
 {
   VolumeScene scene;
   scene.options = options;
-  scene.options.tolerance = options.tolerance_choice.value_or(options.tolerance);
+  settle(scene.options);
   if (!options.preset.empty())
   {
     scene.preset = &find_preset(options.preset); // before the work of reading
   }
   check(options);
-  const bool density = options.density();
-  const bool shines = options.medium.has_medium() || options.medium.has_fog();
-  const double behind = density && !shines ? 1.0 : 0.0;
-  scene.options.background = options.background_choice.value_or(
-    std::array<double, 3>{ behind, behind, behind });
   for (const std::string& mesh : options.meshes)
   {
     scene.meshes.push_back(open_mesh(mesh));
@@ -315,12 +422,7 @@ VolumeScene make_volume_scene(const SceneOptions& options)
   }
   scene.input = open_input_with_bar(options.input, options.choice, options.quiet);
   choose_array(scene.input, options.density_array, options.input);
-  if (!scene.preset && !density)
-  {
-    const PresetChoice choice = choose_preset(scene.input.data());
-    scene.preset = choice.preset;
-    scene.preset_reason = choice.reason;
-  }
+  settle_preset(scene);
   if (!options.quiet)
   {
     for (const std::string& message : scene.input.messages)
@@ -338,35 +440,36 @@ VolumeScene make_volume_scene(const SceneOptions& options)
   scene.mask = open_mask(options.modes, scene.input.image, options.input,
     options.choice.max_memory, options.quiet);
   InterruptionWatch::check(options.input.c_str());
-  vtkNew<vtkVolumeProperty> property;
-  if (scene.preset)
-  {
-    apply(*scene.preset, scene.input.data(), property);
-  }
-  for (int c = 0; c < VTK_MAX_VRCOMP; ++c)
-  {
-    if (options.opacity_unit_distance)
-    {
-      property->SetScalarOpacityUnitDistance(c, *options.opacity_unit_distance);
-    }
-    if (options.shade != "preset")
-    {
-      property->SetShade(c, options.shade == "on");
-    }
-  }
-  property->SetInterpolationType(
-    options.interpolation == "nearest" ? VTK_NEAREST_INTERPOLATION : VTK_LINEAR_INTERPOLATION);
-  scene.opacity_unit_distance = property->GetScalarOpacityUnitDistance();
   scene.voxel_edge = smallest_edge(scene.input);
   scene.volume = vtkSmartPointer<vtkVolume>::New();
-  scene.volume->SetProperty(property);
-
-  scene.lights = make_lights(options.medium);
-  scene.medium = make_medium(options.medium, options.extinction);
-  scene.fog = make_fog(options.medium, scene.sky);
+  give_property(scene);
+  give_light_and_matter(scene);
   InterruptionWatch::check(options.input.c_str());
   scene.camera = make_camera(scene);
   return scene;
+}
+
+void update(VolumeScene& scene, const SceneOptions& options)
+{
+  check(options);
+  VolumeScene next = scene;
+  next.options = options;
+  settle(next.options);
+  if (!same_sky(scene.options.medium, options.medium))
+  {
+    next.sky = make_sky(options.medium, options.choice.max_memory);
+  }
+  give_light_and_matter(next);
+  if (next.volume)
+  {
+    check_sample_distance(next);
+    if (!same_look(scene.options, options))
+    {
+      settle_preset(next);
+      give_property(next);
+    }
+  }
+  scene = std::move(next);
 }
 
 namespace
@@ -427,6 +530,16 @@ void set_up(const VolumeScene& scene, vtkBrumeSmartVolumeMapper* mapper)
 
 void fit_clipping_range(const VolumeScene& scene)
 {
+  if (scene.volume && !scene.volume->GetMapper())
+  {
+    // Its mapper tells where a volume is: one that will never draw.
+    vtkNew<vtkBrumeRayMarchMapper> mapper;
+    mapper->SetInputDataObject(scene.input.data());
+    scene.volume->SetMapper(mapper);
+    fit_clipping_range(scene);
+    scene.volume->SetMapper(nullptr);
+    return;
+  }
   if (scene.meshes.empty())
   {
     vtkBrumeVolumeMapper::ResetClippingRange(scene.volume, scene.camera);

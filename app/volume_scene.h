@@ -60,6 +60,11 @@ struct VolumeScene
 /// Throws Failure: BadCall for an unknown preset or sample, Failed for an input that cannot be read.
 VolumeScene make_volume_scene(const SceneOptions& options);
 
+/// Makes anew what these options have other than the scene's: look, light, matter, fog, modes, accuracy.
+/// Input, mask, meshes, cropping's voxels and camera stay, and are not looked at. The options must
+/// outlive the scene. Throws Failure for options that do not fit, and leaves the scene as it was.
+void update(VolumeScene& scene, const SceneOptions& options);
+
 /// Fits the camera's clipping range to the volume and the meshes.
 void fit_clipping_range(const VolumeScene& scene);
 

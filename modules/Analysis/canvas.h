@@ -36,7 +36,7 @@ struct TextStyle
 };
 
 /// Places are in pixels from the upper left corner, y downward; what falls outside is cut off.
-class Canvas
+class VTKBRUMEANALYSIS_EXPORT Canvas
 {
 public:
   /// Throws std::invalid_argument for a width or height that is not positive.
@@ -64,13 +64,13 @@ private:
 };
 
 /// Width in pixels that Canvas::text takes.
-int text_width(const std::string& line, const TextStyle& style);
+VTKBRUMEANALYSIS_EXPORT int text_width(const std::string& line, const TextStyle& style);
 
 /// The line, or as much of its beginning as fits with an ellipsis behind it.
-std::string fitted(const std::string& line, const TextStyle& style, int width);
+VTKBRUMEANALYSIS_EXPORT std::string fitted(const std::string& line, const TextStyle& style, int width);
 
 /// The text broken between words into at most `lines` lines of that width, the last one fitted.
-std::vector<std::string> wrapped(
+VTKBRUMEANALYSIS_EXPORT std::vector<std::string> wrapped(
   const std::string& text, const TextStyle& style, int width, int lines);
 
 }

@@ -1,6 +1,8 @@
 // Figures as text, the same in the report, the panel and the terminal.
 #pragma once
 
+#include "vtkBrumeAnalysisModule.h" // the export macro alone
+
 #include <string>
 #include <string_view>
 
@@ -10,7 +12,7 @@ namespace brume
 /// Three significant digits: "0.0812", "1.9", "317", "12400"; scientific ("3.2e-07") below 1e-4 and
 /// from 1e7; "0" for zero, "infinite" and "not a number" for what is not finite. Trailing zeros
 /// after the point are dropped. The locale plays no part.
-std::string figure(double value, int significant_digits = 3);
+VTKBRUMEANALYSIS_EXPORT std::string figure(double value, int significant_digits = 3);
 
 /// A fraction of white in steps of an 8-bit display, without a unit: figure(255 * fraction).
 std::string in_255ths(double fraction);

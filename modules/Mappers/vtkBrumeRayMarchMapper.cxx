@@ -174,9 +174,11 @@ bool vtkBrumeRayMarchMapper::RenderScene(brume::Scene& whole, brume::Film& film)
   wanted.choose_step = this->AutoAdjustSampleDistances != 0;
   wanted.step = this->FixedStep();
   wanted.jitter = this->UseJittering != 0;
-  wanted.coarse = this->ImageSampleDistanceInUse > 1.0;
+  wanted.coarse = this->ReusePlan || this->ImageSampleDistanceInUse > 1.0;
   wanted.threads = this->NumberOfThreads;
   brume::MarchChoices& choices = this->Internal->Choices;
+  // Choices are made by many small renders, and may take longer than the picture.
+  this->Internal->Marcher.set_watch([this] { return this->TellProgress(0.0); });
   choices.Update(this->Internal->Marcher, whole, wanted);
   this->GetEffectPlan()->SetPlan(choices.GetPlan());
   const brume::Scene& scene = choices.GetScene();
@@ -235,5 +237,6 @@ void vtkBrumeRayMarchMapper::PrintSelf(ostream& os, vtkIndent indent)
   const char* const methods[] = { "automatic", "none", "rays", "volume", "functions" };
   os << indent << "ShadowMethod: " << methods[this->ShadowMethod] << "\n";
   os << indent << "ShadowSampleDistance: " << this->ShadowSampleDistance << "\n";
+  os << indent << "ReusePlan: " << (this->ReusePlan ? "On" : "Off") << "\n";
   os << indent << "UseJittering: " << (this->UseJittering ? "On" : "Off") << "\n";
 }

@@ -121,6 +121,17 @@ public:
 
   ///@{
   /**
+   * Whether the plan of effects that was made for another view is good enough: for pictures that
+   * move, whose next one is to be there at once. Without lit media plans hold for all views. Default
+   * off: lit scenes are planned for each view.
+   */
+  vtkSetClampMacro(ReusePlan, vtkTypeBool, 0, 1);
+  vtkGetMacro(ReusePlan, vtkTypeBool);
+  vtkBooleanMacro(ReusePlan, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
    * Pixels between rays, in a window, when AutoAdjustSampleDistances is off. 1, the default: one
    * ray a pixel. 2: a ray for 2 × 2 pixels, interpolated between them. ½: 2 × 2 rays for each
    * pixel, averaged; below 1 the nearest whole number of them is taken. Range 0.1 to 100; values
@@ -237,6 +248,7 @@ private:
   float ImageSampleDistance = 1.0f;
   float MinimumImageSampleDistance = 1.0f;
   float MaximumImageSampleDistance = 10.0f;
+  vtkTypeBool ReusePlan = 0;
   vtkTypeBool UseJittering = 0;
   int ShadowMethod = AutomaticShadows;
   double ShadowSampleDistance = 0.0;

@@ -9,6 +9,7 @@
 #include "volume_group.h"
 #include "vtkBrumeFilmBlender.h"
 
+#include "Transport/marcher.h"
 #include "Transport/film.h"
 
 #include "vtkBrumeEffectPlan.h"
@@ -223,8 +224,11 @@ const brume::Scene* vtkBrumeVolumeMapper::UpdateScene(
 
 void vtkBrumeVolumeMapper::SetSurfaceDepth(std::vector<float> depth)
 {
-  this->Internal->SurfaceDepth = std::move(depth);
-  this->Modified();
+  if (depth != this->Internal->SurfaceDepth)
+  {
+    this->Internal->SurfaceDepth = std::move(depth);
+    this->Modified();
+  }
 }
 
 brume::Scene* vtkBrumeVolumeMapper::WithSurfaceDepth(brume::Scene* scene, int width, int height)
@@ -356,6 +360,11 @@ bool vtkBrumeVolumeMapper::RenderUpdated(brume::Scene& scene, brume::Film& film)
     {
       brume::apply_window_level(film, this->FinalColorWindow, this->FinalColorLevel);
     }
+  }
+  catch (const brume::Marcher::Interrupted&)
+  {
+    // Before the picture was begun: what was prepared is kept, and made whole by the next render.
+    this->Statistics = R"({"completed": false})";
   }
   catch (const std::invalid_argument& error)
   {

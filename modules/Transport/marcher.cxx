@@ -487,6 +487,7 @@ MarchStatistics Marcher::render(
   std::atomic<std::uint64_t> ray_count{ 0 };
   std::atomic<int> done{ 0 };
   std::atomic<bool> aborted{ false };
+  const bool watched = !progress && this->Watch;
   const std::thread::id caller = std::this_thread::get_id();
   if (visible_bricks > 0 || common.fog || scene.blend_mode == BlendMode::Additive)
   {
@@ -512,12 +513,11 @@ MarchStatistics Marcher::render(
               samples += count.samples;
               ray_count += count.rays;
               const int finished = ++done;
-              if (progress && std::this_thread::get_id() == caller)
+              if (std::this_thread::get_id() == caller &&
+                  ((progress && !progress(double(finished) / tiles)) ||
+                    (watched && !this->Watch())))
               {
-                if (!progress(double(finished) / tiles))
-                {
-                  aborted = true;
-                }
+                aborted = true;
               }
             }
           },
@@ -527,6 +527,10 @@ MarchStatistics Marcher::render(
   if (progress && !aborted && !progress(1.0))
   {
     aborted = true;
+  }
+  if (watched && aborted)
+  {
+    throw Interrupted();
   }
 
   statistics.seconds = seconds_since(start);

@@ -6,9 +6,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace brume
 {
@@ -131,7 +133,18 @@ public:
   MarchStatistics render(const Scene& scene, const MarchSettings& settings, Film& film,
     const Progress& progress = {});
 
+  /// Thrown by render() where the watch ends it.
+  struct Interrupted : std::exception
+  {
+    const char* what() const noexcept override { return "the render was ended by its watch"; }
+  };
+  /// Asked now and then, from the calling thread, by each render() that has no progress of its own;
+  /// false ends it by an exception, so that whatever is made of many renders (choose_step,
+  /// choose_shadows, plan_effects) ends with it. The marcher stays usable. Default: none.
+  void set_watch(std::function<bool()> watch) { this->Watch = std::move(watch); }
+
 private:
+  std::function<bool()> Watch;
   struct Cache;
   std::unique_ptr<Cache> Kept;
 };

@@ -43,7 +43,8 @@ TEST(SceneSchema, NamesEveryOptionOfAScene)
   CLI::App command;
   SceneOptions options;
   add_scene_options(command, options, "preset");
-  std::set<std::string> keys{ "$schema", "lights", "lobes" };
+  std::set<std::string> keys{ "$schema", "lights", "lobes", "colour", "opacity", "exposure",
+    "display-curve" };
   for (const CLI::Option* option : command.get_options())
   {
     const std::string name = option->get_positional() ? "input" : option->get_lnames().at(0);

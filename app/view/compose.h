@@ -1,0 +1,32 @@
+// Two pictures in one viewport.
+#pragma once
+
+#include "layout.h"
+
+#include "Analysis/picture.h"
+
+#include <string>
+#include <vector>
+
+namespace brume::app
+{
+
+/// The picture at another size, linear between pixels' centres.
+Picture resized(const Picture& picture, int width, int height);
+
+/// One picture to the left of column `divider` and the other from there on, with a line between. Both of
+/// one size.
+Bitmap wiped(const Bitmap& left, const Bitmap& right, int divider);
+
+/// Lines of text in a box of this size, broken between words and cut off where they do not fit.
+Bitmap page_of(const std::vector<std::string>& paragraphs, int width, int height, const Metrics& metrics);
+
+/// Two columns of text, as help is: keys and what they do.
+Bitmap table_of(const std::vector<std::pair<std::string, std::string>>& rows, int width, int height,
+  const Metrics& metrics);
+
+/// One line in a strip, what is more important to the left.
+Bitmap caption_of(
+  const std::string& left, const std::string& right, int width, int height, const Metrics& metrics);
+
+}

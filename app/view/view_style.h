@@ -1,0 +1,47 @@
+// The mouse in the window of `brume view`: VTK's trackball camera, where nothing else takes it.
+#pragma once
+
+#include "vtkInteractorStyleTrackballCamera.h"
+
+#include <functional>
+#include <string>
+
+namespace brume::app
+{
+
+/// Left turns, middle or Shift + left shifts, right or the wheel comes nearer, as in VTK. Places are
+/// pixels from the window's upper left corner.
+class ViewStyle : public vtkInteractorStyleTrackballCamera
+{
+public:
+  static ViewStyle* New();
+  vtkTypeMacro(ViewStyle, vtkInteractorStyleTrackballCamera);
+
+  /// Whether it takes the mouse; else the camera does.
+  std::function<bool(int x, int y, bool right_button, bool twice)> Press;
+  std::function<bool(int x, int y)> Drag;
+  std::function<bool()> Release;
+  /// A key by X's name, with whether Control is held.
+  std::function<void(const std::string& symbol, bool control)> Key;
+  /// After any event that the camera or one of these took.
+  std::function<void()> Done;
+
+  void OnLeftButtonDown() override;
+  void OnLeftButtonUp() override;
+  void OnMiddleButtonDown() override;
+  void OnRightButtonDown() override;
+  void OnRightButtonUp() override;
+  void OnMouseMove() override;
+  void OnKeyPress() override;
+  void OnChar() override {} // VTK's own keys are other things here
+
+protected:
+  ViewStyle() = default;
+  ~ViewStyle() override = default;
+
+private:
+  bool TakesPress(bool right_button);
+  bool TakesRelease();
+};
+
+}
