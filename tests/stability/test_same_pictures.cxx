@@ -287,7 +287,8 @@ TEST(Invariants, Truth)
     "the march, step halved after step, and the truth",
     "they share no arithmetic: transfer functions of two nodes and of 257, colours, boxes that "
     "overlap; what converges to something else has another idea of the optics",
-    "where two halvings in a row changed no pixel by more than 1e-3, they differ by 2e-3 at most");
+    "where two halvings in a row changed no pixel by more than 1e-3, they differ by 2e-3 at most, "
+    "or by what the truth says was still changing");
   Worst worst;
   int settled = 0;
   const int held = try_scenes("march and truth",
@@ -308,10 +309,11 @@ TEST(Invariants, Truth)
       if (calm == 2)
       {
         ++settled;
-        RC_ASSERT(worst(relative(film, by_reference(random.scene, 1e-4))) <= 2e-3);
+        const Film exact = by_reference(random.scene, 1e-4);
+        RC_ASSERT(worst(relative(film, exact) / std::max(2e-3, unsettled(exact, exact))) <= 1.0);
       }
     });
-  tell(truth, held, worst, 2e-3, "of white", "march, reference");
+  tell(truth, held, worst, 1.0, "of what both allow", "march, reference");
   truth.holds(20 * settled >= 19 * property_trials(few), "19 of 20 settle", "march");
 }
 
