@@ -148,8 +148,8 @@ void run(const Options& options, CLI::App& command)
   {
     scene["quiet"] = true;
   }
+  settings.window = options.window;
   Viewer viewer(scene, settings);
-  viewer.resize(options.window[0], options.window[1]);
 
   ViewWindow::Settings place;
   place.width = options.window[0];

@@ -3,6 +3,7 @@
 #include "vtkBoxRepresentation.h"
 #include "vtkBoxWidget2.h"
 #include "vtkCallbackCommand.h"
+#include "vtkCamera.h"
 #include "vtkCommand.h"
 #include "vtkImplicitPlaneRepresentation.h"
 #include "vtkImplicitPlaneWidget2.h"
@@ -12,6 +13,7 @@
 #include "vtkRenderer.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace brume::app
 {
@@ -121,8 +123,19 @@ void CuttingTools::switch_plane(
   in.PlaneShape->PlaceWidget(place.data());
   in.PlaneShape->SetOrigin(0.5 * (volume[0] + volume[1]), 0.5 * (volume[2] + volume[3]),
     0.5 * (volume[4] + volume[5]));
-  in.PlaneShape->SetNormal(0.0, 1.0, 0.0);
+  // The half toward the eye goes, along the axis that is nearest to the line of sight.
+  double sight[3];
+  renderer->GetActiveCamera()->GetDirectionOfProjection(sight);
+  int axis = 0;
+  for (int i = 1; i < 3; ++i)
+  {
+    axis = std::abs(sight[i]) > std::abs(sight[axis]) ? i : axis;
+  }
+  double normal[3] = { 0.0, 0.0, 0.0 };
+  normal[axis] = sight[axis] > 0.0 ? 1.0 : -1.0;
+  in.PlaneShape->SetNormal(normal);
   in.Plane->On();
+  in.told(in.Plane);
 }
 
 void CuttingTools::hide()

@@ -27,7 +27,8 @@ public:
   std::function<void(const Bounds&)> Boxed;
   std::function<void(const Plane&)> Planed;
 
-  /// Shows the box, around `now` at first, or hides it; what is cut stays.
+  /// Shows the box, around `now` at first, or the plane, which cuts at once, through the middle; or
+  /// hides it: what is cut stays.
   ///@{
   void switch_box(
     vtkRenderWindowInteractor* interactor, vtkRenderer* renderer, const Bounds& volume, const Bounds& now);

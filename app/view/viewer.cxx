@@ -72,6 +72,7 @@ ordered_json with_size(ordered_json scene, const Box& box)
 
 Viewer::Viewer(const ordered_json& scene, const Settings& settings)
   : Set(settings)
+  , Window(settings.window)
 {
   if (this->Set.mappers.empty())
   {

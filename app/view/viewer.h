@@ -51,6 +51,7 @@ public:
   {
     std::vector<MapperKind> mappers{ MapperKind::RayMarch }; ///< one a viewport, 1 to 4
     Arrangement arrangement = Arrangement::SideBySide;
+    std::array<int, 2> window{ 1280, 760 }; ///< pixels; what the camera is first fitted to
     double scale = 1.0;          ///< of lettering and panel
     bool panel = true;
     /// Keys of who shows it, for the page of help.
@@ -162,7 +163,7 @@ private:
   VolumeScene Volume;
   vtkSmartPointer<vtkCamera> FirstCamera; ///< as it was opened
   std::vector<Pane> Panes;
-  std::array<int, 2> Window{ 1280, 760 };
+  std::array<int, 2> Window;
   Layout Boxes;
   std::vector<Tile> Tiles;
   DrawnPanel Panel;
