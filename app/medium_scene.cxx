@@ -245,6 +245,7 @@ void apply(const MediumOptions& o, vtkBrumeRayMarchMapper* mapper)
     }
   }
   mapper->SetShadowSampleDistance(o.shadow_sample_distance);
+  mapper->GetEffectPlan()->ForceNothing(); // a mapper may have had others
   for (const std::string& force : o.forces)
   {
     const std::size_t equal = force.find('=');

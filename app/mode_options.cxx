@@ -288,10 +288,12 @@ void apply(const ModeOptions& o, vtkVolumeMapper* mapper, vtkVolumeProperty* pro
   {
     mapper->SetAverageIPScalarRange((*o.average_range)[0], (*o.average_range)[1]);
   }
+  // A mapper may have had others.
+  mapper->SetCropping(o.cropping.has_value());
+  mapper->RemoveAllClippingPlanes();
   if (o.cropping)
   {
     std::array<double, 6> planes = *o.cropping;
-    mapper->CroppingOn();
     mapper->SetCroppingRegionPlanes(planes.data());
     mapper->SetCroppingRegionFlags(flags_of(o.cropping_flags));
   }

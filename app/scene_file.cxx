@@ -361,7 +361,7 @@ ordered_json scene_schema()
   return SceneKeys(command, options).schema();
 }
 
-ordered_json scene_of(CLI::App& command)
+ordered_json scene_of(CLI::App& command, const SceneOptions& options)
 {
   // The subcommand's own options are no part of a scene.
   CLI::App keys;
@@ -382,14 +382,14 @@ ordered_json scene_of(CLI::App& command)
   if (file && file->count() > 0)
   {
     const json object = read_object(file->results().back());
-    const bool phase = scene.contains("phase") || scene.contains("anisotropy");
-    const bool other_colours = scene.contains("extinction") ||
-      (scene.contains("preset") && scene["preset"] != object.value("preset", ""));
     for (const char* name : list_keys)
     {
-      const bool silenced = name == std::string("lobes") ? phase
-        : name == std::string("lights")                  ? false
-                                                         : other_colours;
+      // What the command line took the place of is empty.
+      const std::string list = name;
+      const bool silenced = list == "lobes" ? options.medium.lobes.empty()
+        : list == "colour"                  ? options.colour.empty()
+        : list == "opacity"                 ? options.opacity.empty()
+                                            : false;
       if (object.contains(name) && !silenced)
       {
         scene[name] = object[name];
@@ -421,6 +421,24 @@ ordered_json read_scene(const std::string& path)
     }
   }
   return scene;
+}
+
+void drop_orphans(ordered_json& scene)
+{
+  CLI::App command;
+  SceneOptions options;
+  add_scene_options(command, options, "preset");
+  for (const CLI::Option* option : command.get_options())
+  {
+    const std::string name = option->get_single_name();
+    const auto& needed = option->get_needs();
+    const bool orphan = std::any_of(needed.begin(), needed.end(),
+      [&](const CLI::Option* other) { return !scene.contains(other->get_single_name()); });
+    if (orphan)
+    {
+      scene.erase(name);
+    }
+  }
 }
 
 struct ParsedScene::Internals

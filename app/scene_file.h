@@ -33,12 +33,17 @@ void add_scene_file(CLI::App& command, SceneOptions& options);
 nlohmann::ordered_json scene_schema();
 
 /// What a subcommand with scene options was told, by its command line and its scene file, as a scene
-/// file of its own; names of files are absolute. To be called after the parse. Without "quiet" and
+/// file of its own; names of files are absolute. To be called after the parse, with the options that it
+/// filled. Without "quiet" and
 /// "verbose", which are no part of a scene.
-nlohmann::ordered_json scene_of(CLI::App& command);
+nlohmann::ordered_json scene_of(CLI::App& command, const SceneOptions& options);
 
 /// A scene file with absolute names of files, checked. Throws Failure as the parse of --scene does.
 nlohmann::ordered_json read_scene(const std::string& path);
+
+/// Takes out of a scene file's object what needs keys that are not there ("silver-lining-spread" without
+/// "silver-lining"), which --scene would refuse.
+void drop_orphans(nlohmann::ordered_json& scene);
 
 /// The options that a scene file's object stands for; copies share them.
 class ParsedScene

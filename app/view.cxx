@@ -35,7 +35,7 @@ namespace
 
 struct Options
 {
-  SceneOptions scene; ///< for the parse alone; the viewer reads scene_of()
+  SceneOptions scene; ///< the viewer reads scene_of()
   DisplayOptions display;
   std::array<int, 2> window{ 1280, 760 };
   std::string mappers;
@@ -143,7 +143,7 @@ void run(const Options& options, CLI::App& command)
   settings.scale = options.scale ? *options.scale : scale_of_display();
   settings.panel = !options.no_panel;
   settings.more_keys = ViewWindow::keys();
-  nlohmann::ordered_json scene = scene_of(command);
+  nlohmann::ordered_json scene = scene_of(command, options.scene);
   if (options.scene.quiet)
   {
     scene["quiet"] = true;

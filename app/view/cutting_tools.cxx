@@ -35,6 +35,7 @@ struct CuttingTools::Internals
   vtkNew<vtkCallbackCommand> Ear;
   CuttingTools* Owner = nullptr;
   Bounds Volume{};
+  bool PlanePlaced = false; ///< in that volume
 
   void told(vtkObject* caller)
   {
@@ -73,11 +74,13 @@ CuttingTools::CuttingTools()
     { static_cast<Internals*>(data)->told(caller); });
   in.Box->SetRepresentation(in.BoxShape);
   in.Box->RotationEnabledOff();
+  in.Box->KeyPressActivationOff(); // keys are the window's
   in.Box->AddObserver(vtkCommand::InteractionEvent, in.Ear);
   in.BoxShape->SetPlaceFactor(1.0);
   in.BoxShape->GetOutlineProperty()->SetColor(0.46, 0.75, 1.0);
   in.BoxShape->GetSelectedOutlineProperty()->SetColor(1.0, 0.77, 0.43);
   in.Plane->SetRepresentation(in.PlaneShape);
+  in.Plane->KeyPressActivationOff();
   in.Plane->AddObserver(vtkCommand::InteractionEvent, in.Ear);
   in.PlaneShape->SetPlaceFactor(1.0);
   in.PlaneShape->DrawPlaneOff(); // it would hide the picture
@@ -116,9 +119,15 @@ void CuttingTools::switch_plane(
     in.Plane->Off();
     return;
   }
-  in.Volume = volume;
   in.Plane->SetInteractor(interactor);
   in.Plane->SetDefaultRenderer(renderer);
+  if (in.PlanePlaced && in.Volume == volume)
+  {
+    in.Plane->On(); // where it was
+    return;
+  }
+  in.Volume = volume;
+  in.PlanePlaced = true;
   Bounds place = volume;
   in.PlaneShape->PlaceWidget(place.data());
   in.PlaneShape->SetOrigin(0.5 * (volume[0] + volume[1]), 0.5 * (volume[2] + volume[3]),

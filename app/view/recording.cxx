@@ -124,7 +124,7 @@ std::string Recording::finish()
 {
   const std::filesystem::path folder = this->Folder;
   // Video wants even sizes.
-  run_quietly({ "ffmpeg", "-y", "-framerate", "25", "-i", (folder / "%04d.png").string(), "-vf",
+  run_quietly({ "ffmpeg", "-n", "-framerate", "25", "-i", (folder / "%04d.png").string(), "-vf",
     "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", this->Folder + ".mp4" });
   return this->Folder;
 }

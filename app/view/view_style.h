@@ -33,7 +33,8 @@ public:
   void OnRightButtonUp() override;
   void OnMouseMove() override;
   void OnKeyPress() override;
-  void OnChar() override {} // VTK's own keys are other things here
+  void OnChar() override {}  // VTK's own keys are other things here
+  void OnTimer() override {} // the window's timer is not the camera's
 
 protected:
   ViewStyle() = default;

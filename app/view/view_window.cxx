@@ -29,6 +29,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 
 namespace brume::app
@@ -44,9 +45,10 @@ double seconds_since(Clock::time_point start)
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-constexpr unsigned long tick = 10;       ///< milliseconds between looks at what is left to do
+constexpr unsigned long tick = 10;  ///< milliseconds between looks at what is left to do
+constexpr unsigned long rest = 200; ///< the same where nothing is, for Ctrl-C
 constexpr double flicker_seconds = 0.5;
-constexpr double told_every = 0.1;       ///< seconds between figures of progress
+constexpr double told_every = 0.1; ///< seconds between figures of progress
 /// While events come faster than pictures, a picture is due after so many seconds all the same.
 constexpr double longest_wait = 0.05;
 
@@ -76,43 +78,76 @@ struct ViewWindow::Internals
   vtkNew<ViewStyle> Style;
   vtkNew<vtkCallbackCommand> Ear;
   vtkNew<vtkInteractorEventRecorder> Recorder;
+  vtkNew<vtkInteractorEventRecorder> Player;
   vtkNew<vtkRenderer> Page; ///< what no tile covers
   std::vector<std::unique_ptr<ShownTile>> Tiles;
   CuttingTools Tools;
+  std::optional<std::size_t> OwnPlane; ///< which of the scene's planes is the tool's
   ViewTimes Times;
   Clock::time_point LastFlick = Clock::now();
   Clock::time_point LastTold = LastFlick;
   std::optional<Clock::time_point> Event; ///< the first that is not shown yet
   vtkMTimeType CameraTime = 0;
   int Timer = -1;
+  bool Resting = false; ///< the timer's pace
   bool Presenting = false;
 
-  bool input_waits()
-  {
-    return brume::app::input_waits(this->Window->GetGenericDisplayId());
-  }
+  bool input_waits() { return brume::app::input_waits(this->Window->GetGenericDisplayId()); }
 
   void observe()
   {
     this->Ear->SetClientData(this);
     this->Ear->SetCallback(
       [](vtkObject*, unsigned long event, void* data, void* call)
-      { static_cast<Internals*>(data)->on_event(event, call); });
-    for (const unsigned long event : { vtkCommand::RenderEvent, vtkCommand::TimerEvent,
-           vtkCommand::ConfigureEvent, vtkCommand::DropFilesEvent, vtkCommand::ExposeEvent })
+      {
+        auto* self = static_cast<Internals*>(data);
+        self->try_to([&] { self->on_event(event, call); });
+      });
+    for (const unsigned long event : { vtkCommand::RenderEvent,
+           vtkCommand::TimerEvent,
+           vtkCommand::ConfigureEvent,
+           vtkCommand::DropFilesEvent,
+           vtkCommand::ExposeEvent })
     {
       this->Interactor->AddObserver(event, this->Ear);
     }
-    this->Style->Press = [this](int x, int y, bool right, bool twice)
-    { return this->View.press(x, y, right, twice); };
-    this->Style->Drag = [this](int x, int y) { return this->View.drag(x, y); };
-    this->Style->Release = [this] { return this->View.release(); };
-    this->Style->Key = [this](const std::string& symbol, bool control) { this->key(symbol, control); };
-    this->Style->Done = [this] { this->want_picture(); };
+    const auto taken = [this](auto&& work)
+    {
+      bool takes = true;
+      this->try_to([&] { takes = work(); });
+      return takes;
+    };
+    this->Style->Press = [this, taken](int x, int y, bool right, bool twice)
+    { return taken([&] { return this->View.press(x, y, right, twice); }); };
+    this->Style->Drag = [this, taken](int x, int y)
+    { return taken([&] { return this->View.drag(x, y); }); };
+    this->Style->Release = [this, taken] { return taken([&] { return this->View.release(); }); };
+    this->Style->Key = [this](const std::string& symbol, bool control)
+    { this->try_to([&] { this->key(symbol, control); }); };
+    this->Style->Done = [this] { this->try_to([&] { this->want_picture(); }); };
     this->Tools.Boxed = [this](const CuttingTools::Bounds& bounds)
     { this->View.set_key("cropping", nlohmann::ordered_json(bounds)); };
-    this->Tools.Planed = [this](const CuttingTools::Plane& plane)
-    { this->View.set_key("clipping-plane", nlohmann::ordered_json::array({ plane })); };
+    this->Tools.Planed = [this](const CuttingTools::Plane& plane) { this->set_plane(plane); };
+  }
+
+  /// The tool's plane, beside those that the scene has of its own.
+  void set_plane(const CuttingTools::Plane& plane)
+  {
+    nlohmann::ordered_json planes = this->View.key_of_scene("clipping-plane");
+    if (!planes.is_array())
+    {
+      planes = nlohmann::ordered_json::array();
+    }
+    if (this->OwnPlane && *this->OwnPlane < planes.size())
+    {
+      planes[*this->OwnPlane] = plane;
+    }
+    else
+    {
+      this->OwnPlane = planes.size();
+      planes.push_back(plane);
+    }
+    this->View.set_key("clipping-plane", planes);
   }
 
   void on_event(unsigned long event, void* call)
@@ -172,7 +207,8 @@ struct ViewWindow::Internals
     const bool drew = this->View.stale();
     if (drew)
     {
-      this->View.draft([](double) { return true; }, [this] { this->present(); });
+      this->View.draft(
+        [](double) { return !InterruptionWatch::requested(); }, [this] { this->present(); });
       this->CameraTime = this->View.camera()->GetMTime();
     }
     this->present();
@@ -188,10 +224,16 @@ struct ViewWindow::Internals
 
   void present()
   {
-    if (std::exchange(this->Presenting, true))
+    if (this->Presenting)
     {
       return;
     }
+    this->Presenting = true;
+    struct Guard
+    {
+      bool& flag;
+      ~Guard() { flag = false; }
+    } const guard{ this->Presenting };
     const std::vector<Tile>& tiles = this->View.tiles();
     const int* size = this->Window->GetSize();
     while (this->Tiles.size() > tiles.size())
@@ -220,15 +262,18 @@ struct ViewWindow::Internals
       }
       shown.version = tile.version;
       const Box& box = tile.box;
-      shown.renderer->SetViewport(double(box.x) / size[0], double(size[1] - box.y - box.height) / size[1],
-        double(box.x + box.width) / size[0], double(size[1] - box.y) / size[1]);
+      shown.renderer->SetViewport(double(box.x) / size[0],
+        double(size[1] - box.y - box.height) / size[1],
+        double(box.x + box.width) / size[0],
+        double(size[1] - box.y) / size[1]);
       shown.renderer->SetInteractive(tile.picture);
       shown.renderer->SetActiveCamera(this->View.camera());
       vtkNew<vtkUnsignedCharArray> bytes;
       bytes->SetNumberOfComponents(3);
       // The viewer keeps the bitmap until it gives another.
       bytes->SetArray(const_cast<unsigned char*>(tile.bitmap.rgb.data()),
-        static_cast<vtkIdType>(tile.bitmap.rgb.size()), 1);
+        static_cast<vtkIdType>(tile.bitmap.rgb.size()),
+        1);
       shown.image->SetDimensions(tile.bitmap.width, tile.bitmap.height, 1);
       shown.image->GetPointData()->SetScalars(bytes);
       shown.image->Modified();
@@ -240,21 +285,24 @@ struct ViewWindow::Internals
     {
       this->Times.first_picture = seconds_since(this->Set.start);
     }
-    this->Presenting = false;
   }
 
-  void start_timer()
+  void set_timer(bool resting)
   {
+    if (this->Timer >= 0 && this->Resting != resting)
+    {
+      this->Interactor->DestroyTimer(this->Timer);
+      this->Timer = -1;
+    }
     if (this->Timer < 0)
     {
-      this->Timer = this->Interactor->CreateRepeatingTimer(tick);
+      this->Timer = this->Interactor->CreateRepeatingTimer(resting ? rest : tick);
+      this->Resting = resting;
     }
   }
+  void start_timer() { this->set_timer(false); }
 
-  bool flickers() const
-  {
-    return this->View.settings().arrangement == Arrangement::Flicker;
-  }
+  bool flickers() const { return this->View.settings().arrangement == Arrangement::Flicker; }
 
   void on_timer()
   {
@@ -278,15 +326,15 @@ struct ViewWindow::Internals
     {
       this->refine_once();
     }
-    else if (!this->flickers() && this->Timer >= 0)
+    else if (!this->flickers())
     {
-      this->Interactor->DestroyTimer(this->Timer);
-      this->Timer = -1;
+      this->set_timer(true);
     }
   }
 
-  /// One better picture, unless the user does something. Whether there was one.
-  bool refine_once()
+  /// One better picture, unless the program is interrupted, or, with `heed`, the user does
+  /// something. Whether there was one.
+  bool refine_once(bool heed = true)
   {
     std::optional<Clock::time_point> asked;
     const auto start = Clock::now();
@@ -296,15 +344,17 @@ struct ViewWindow::Internals
     {
       deaf = std::max(deaf, seconds_since(looked));
       looked = Clock::now();
-      if (!asked && (this->input_waits() || InterruptionWatch::requested()))
+      if (!asked && ((heed && this->input_waits()) || InterruptionWatch::requested()))
       {
         asked = Clock::now();
       }
       // VTK's mappers tell nothing, and another window must not be drawn while they draw.
-      if (!asked && done > 0.0 && seconds_since(start) > 0.3 && seconds_since(this->LastTold) > told_every)
+      if (!asked && done > 0.0 && seconds_since(start) > 0.3 &&
+          seconds_since(this->LastTold) > told_every)
       {
         this->LastTold = Clock::now();
-        this->View.say("refining: " + std::to_string(static_cast<int>(100.0 * done)) + " %");
+        this->View.tell_progress(
+          "refining: " + std::to_string(static_cast<int>(100.0 * done)) + " %");
         this->present();
       }
       return !asked;
@@ -315,12 +365,9 @@ struct ViewWindow::Internals
     {
       this->Times.interruptions.push_back(seconds_since(*asked));
     }
+    this->View.tell_progress("");
     if (better || this->View.finished())
     {
-      if (seconds_since(start) > 0.3)
-      {
-        this->View.say("");
-      }
       this->present();
     }
     return better;
@@ -328,25 +375,24 @@ struct ViewWindow::Internals
 
   void open(const std::string& path)
   {
-    try
-    {
-      const bool scene = std::filesystem::path(path).extension() == ".json";
-      nlohmann::ordered_json next;
-      if (scene)
+    this->try_to(
+      [&]
       {
-        next = read_scene(path);
-      }
-      else
-      {
-        next["input"] = std::filesystem::absolute(path).string();
-      }
-      this->View.open(next);
-      this->View.say("opened " + std::filesystem::path(path).filename().string());
-    }
-    catch (const Failure& failure)
-    {
-      this->View.say(failure.what());
-    }
+        this->Tools.hide(); // they are around the former volume
+        this->OwnPlane.reset();
+        const bool scene = std::filesystem::path(path).extension() == ".json";
+        nlohmann::ordered_json next;
+        if (scene)
+        {
+          next = read_scene(path);
+        }
+        else
+        {
+          next["input"] = std::filesystem::absolute(path).string();
+        }
+        this->View.open(next);
+        this->View.say("opened " + std::filesystem::path(path).filename().string());
+      });
   }
 
   /// What failed is told in the window; it goes on.
@@ -399,6 +445,10 @@ struct ViewWindow::Internals
           {
             throw Failure("EXR", "VTK's mappers make no film", "show one of Brume's first");
           }
+          if (!shot.whole)
+          {
+            throw Failure("EXR", "the picture is a draft still", "wait for the whole one");
+          }
           const std::string path = free_name(this->Set.folder, "view", ".exr");
           write_exr(*shot.film, path);
           this->View.say("saved " + path);
@@ -410,17 +460,21 @@ struct ViewWindow::Internals
         [&]
         {
           const std::string folder = symbol == "F4" ? this->turntable(90) : this->series();
-          this->View.say(folder.empty() ? "recording ended" : "recorded " + folder);
+          this->View.camera_moved();
+          this->View.say("recorded " + folder);
         });
     }
     else if (symbol == "F5")
     {
-      this->try_to([&] { this->View.open(this->View.scene()); });
+      this->View.reload();
+      this->View.say("read again");
     }
     else if (symbol == "c")
     {
       const VolumeScene& scene = this->View.volume_scene();
-      this->Tools.switch_box(this->Interactor, this->Tiles.front()->renderer, scene.bounds(),
+      this->Tools.switch_box(this->Interactor,
+        this->Tiles.front()->renderer,
+        scene.bounds(),
         scene.options.modes.cropping.value_or(scene.bounds()));
     }
     else if (symbol == "k")
@@ -445,19 +499,24 @@ struct ViewWindow::Internals
     save_png(bitmap, path);
   }
 
-  /// Refines all; false where the user ended it.
-  bool settle()
+  /// Refines all, whatever the user does but Ctrl-C.
+  void settle()
   {
+    this->View.go_on();
     this->show();
     while (!this->View.finished())
     {
-      if (!this->refine_once() && !this->View.finished())
+      const bool better = this->refine_once(false);
+      InterruptionWatch::check("view");
+      if (!better && !this->View.finished())
       {
-        return false;
+        throw Failure("view", "a picture could not be finished", "see its viewport");
       }
     }
-    return true;
   }
+
+  /// Whether Escape waits: other input during a recording does nothing.
+  bool escape_waits() { return escape_was_pressed(this->Window->GetGenericDisplayId()); }
 
   /// The pictures alone, without captions and panel.
   Bitmap pictures()
@@ -477,14 +536,11 @@ struct ViewWindow::Internals
   {
     Recording recording(this->Set.folder, "turntable");
     const KeptCamera kept(this->View.camera());
-    for (int i = 0; i < pictures; ++i)
+    for (int i = 0; i < pictures && !this->escape_waits(); ++i)
     {
-      this->View.say("turntable: " + std::to_string(i) + " of " + std::to_string(pictures));
-      if (!this->settle())
-      {
-        this->View.camera_moved();
-        return {};
-      }
+      this->View.say(
+        "turntable: " + std::to_string(i) + " of " + std::to_string(pictures) + ", Escape ends it");
+      this->settle();
       recording.add(this->pictures());
       this->View.camera()->Azimuth(360.0 / pictures);
       this->View.camera()->OrthogonalizeViewUp();
@@ -495,28 +551,22 @@ struct ViewWindow::Internals
 
   std::string series()
   {
-    const std::size_t count = this->View.volume_scene().input.times.size();
+    const int count = static_cast<int>(this->View.volume_scene().input.times.size());
     if (count < 2)
     {
       throw Failure("series", "the input has one time step", "open a series over time");
     }
+    const int before = this->View.volume_scene().input.time_step;
     Recording recording(this->Set.folder, "series");
-    while (this->View.volume_scene().input.time_step > 0)
+    for (int i = 0; i < count && !this->escape_waits(); ++i)
     {
-      this->View.key("Prior");
-    }
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      if (!this->settle())
-      {
-        return {};
-      }
+      this->View.go_to_time(i);
+      this->View.say(
+        "series: " + std::to_string(i) + " of " + std::to_string(count) + ", Escape ends it");
+      this->settle();
       recording.add(this->pictures());
-      if (i + 1 < count)
-      {
-        this->View.key("Next");
-      }
     }
+    this->View.go_to_time(before);
     return recording.finish();
   }
 };
@@ -549,9 +599,15 @@ ViewWindow::ViewWindow(Viewer& viewer, const Settings& settings)
 
 std::vector<std::pair<std::string, std::string>> ViewWindow::keys()
 {
-  return { { "Ctrl s", "save the scene, as brume render takes it" }, { "F2", "save the window as PNG" },
-    { "F3", "save the first viewport's light as EXR" }, { "F4", "record a turn" },
-    { "F5", "read the input again" }, { "F6", "record all time steps" }, { "c", "a box to crop with" }, { "k", "a plane to cut with" }, { "q", "quit" },
+  return { { "Ctrl s", "save the scene, as brume render takes it" },
+    { "F2", "save the window as PNG" },
+    { "F3", "save the first viewport's light as EXR" },
+    { "F4", "record a turn" },
+    { "F5", "read the input again" },
+    { "F6", "record all time steps" },
+    { "c", "a box to crop with" },
+    { "k", "a plane to cut with" },
+    { "q", "quit" },
     { "Mouse", "left turns, middle shifts, right or wheel comes nearer" },
     { "Panel", "drag a bar; right click: as it was at first" } };
 }
@@ -561,6 +617,7 @@ ViewWindow::~ViewWindow()
   Internals& in = *this->Internal;
   in.Interactor->RemoveObserver(in.Ear);
   in.Recorder->SetInteractor(nullptr);
+  in.Player->SetInteractor(nullptr);
   in.Tools.hide();
   in.Tiles.clear();
 }
@@ -599,14 +656,21 @@ std::string ViewWindow::record_series()
 void ViewWindow::play(const std::string& path)
 {
   Internals& in = *this->Internal;
-  in.Recorder->SetInteractor(in.Interactor);
-  in.Recorder->SetFileName(path.c_str());
-  in.Recorder->Play();
+  in.Player->KeyPressActivationOff();
+  in.Player->SetInteractor(in.Interactor);
+  in.Player->SetFileName(path.c_str());
+  in.Player->Play();
 }
 
 void ViewWindow::record(const std::string& path)
 {
   Internals& in = *this->Internal;
+  if (!std::ofstream(path))
+  {
+    throw Failure(
+      "--record " + path, "it cannot be written", "name a file in a folder that you may write to");
+  }
+  in.Recorder->KeyPressActivationOff();
   in.Recorder->SetInteractor(in.Interactor);
   in.Recorder->SetFileName(path.c_str());
   in.Recorder->EnabledOn();

@@ -51,12 +51,13 @@ public:
 
   /// Draws what changed, in quick pictures, and shows it.
   void show();
-  /// Refines until all pictures are as good as was asked for.
+  /// Refines until all pictures are as good as was asked for. Throws Failure where the program is
+  /// interrupted, or a picture cannot be drawn.
   void settle();
   /// The window as it is, as a .png file.
   void save_screenshot(const std::string& path);
   /// Pictures of a full turn around the view's up, numbered, in a new folder below Settings::folder, and a
-  /// video where ffmpeg is there. Returns the folder; empty where the user ended it.
+  /// video where ffmpeg is there. Returns the folder. Escape ends it early.
   std::string record_turntable(int pictures = 90);
   /// The same of all time steps.
   std::string record_series();

@@ -23,10 +23,12 @@
 #include "vtkBrumeMedium.h"
 #include "vtkBrumeSky.h"
 #include "vtkLightCollection.h"
+#include "vtkNew.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <utility>
 
 namespace brume::app
@@ -56,11 +58,6 @@ ordered_json triple(const double v[3])
   return { v[0], v[1], v[2] };
 }
 
-std::string first_line(const Failure& failure)
-{
-  return failure.what();
-}
-
 /// The options of a scene for pictures of this size.
 ordered_json with_size(ordered_json scene, const Box& box)
 {
@@ -78,7 +75,9 @@ Viewer::Viewer(const ordered_json& scene, const Settings& settings)
   {
     this->Set.mappers = { MapperKind::RayMarch };
   }
-  this->Boxes = lay_out(this->Window[0], this->Window[1], Metrics(this->Set.scale),
+  this->Boxes = lay_out(this->Window[0],
+    this->Window[1],
+    Metrics(this->Set.scale),
     this->panes_drawn() > 1 && this->Set.arrangement != Arrangement::SideBySide
       ? 1
       : static_cast<int>(this->Set.mappers.size()),
@@ -103,7 +102,15 @@ bool Viewer::compares() const
   return this->Set.arrangement != Arrangement::SideBySide && this->Set.mappers.size() > 1;
 }
 
-void Viewer::open(const ordered_json& scene, bool keep_camera)
+void Viewer::open(const ordered_json& scene)
+{
+  this->take(scene);
+  this->First = scene;
+  this->FirstCamera = vtkSmartPointer<vtkCamera>::New();
+  this->FirstCamera->DeepCopy(this->Volume.camera);
+}
+
+void Viewer::take(const ordered_json& scene)
 {
   const ParsedScene parsed(with_size(scene, this->Boxes.pictures.front()));
   VolumeScene volume = make_volume_scene(parsed.options());
@@ -111,19 +118,36 @@ void Viewer::open(const ordered_json& scene, bool keep_camera)
   {
     throw Failure("INPUT", "it is missing", "name a volume", BadCall);
   }
-  if (keep_camera && this->Volume.camera && !scene.contains("camera-position"))
-  {
-    volume.camera->DeepCopy(this->Volume.camera);
-  }
-  this->FirstCamera = vtkSmartPointer<vtkCamera>::New();
-  this->FirstCamera->DeepCopy(volume.camera);
-  this->Scene = this->First = scene;
+  this->Scene = scene;
   this->Parsed = parsed;
   this->Volume = std::move(volume);
   this->Values.reset();
   this->Figures.clear();
+  this->Hold = Held::Nothing;
   this->Function = function_of(this->Volume.volume->GetProperty());
   this->make_panes();
+}
+
+void Viewer::open_keeping(const ordered_json& scene)
+{
+  vtkNew<vtkCamera> camera;
+  camera->DeepCopy(this->Volume.camera);
+  this->take(scene);
+  this->Volume.camera->DeepCopy(camera);
+  this->camera_moved();
+}
+
+void Viewer::reload()
+{
+  this->open_keeping(ordered_json(this->Scene));
+}
+
+void Viewer::go_to_time(int step)
+{
+  ordered_json scene = this->Scene;
+  scene.erase("time");
+  scene["time-step"] = step;
+  this->open_keeping(scene);
 }
 
 void Viewer::make_panes()
@@ -149,9 +173,9 @@ void Viewer::give_scene()
     {
       pane.painter->set_scene(this->Volume);
     }
-    catch (const Failure& failure)
+    catch (const std::exception& failure)
     {
-      pane.failure = first_line(failure);
+      pane.failure = failure.what();
     }
   }
   this->changed();
@@ -166,8 +190,11 @@ void Viewer::changed()
 void Viewer::resize(int width, int height)
 {
   this->Window = { std::max(width, 1), std::max(height, 1) };
-  this->Boxes = lay_out(this->Window[0], this->Window[1], Metrics(this->Set.scale),
-    this->compares() ? 1 : static_cast<int>(this->Panes.size()), this->Set.panel);
+  this->Boxes = lay_out(this->Window[0],
+    this->Window[1],
+    Metrics(this->Set.scale),
+    this->compares() ? 1 : static_cast<int>(this->Panes.size()),
+    this->Set.panel);
   this->Tiles.clear();
   this->PicturesChanged = true;
   this->changed();
@@ -189,19 +216,20 @@ ordered_json Viewer::scene() const
   return scene;
 }
 
-void Viewer::set(const ordered_json& scene)
+void Viewer::set(ordered_json scene)
 {
   try
   {
+    drop_orphans(scene);
     const ParsedScene parsed(with_size(scene, this->Boxes.pictures.front()));
     update(this->Volume, parsed.options());
     this->Parsed = parsed;
     this->Scene = scene;
     this->Hint.clear();
   }
-  catch (const Failure& failure)
+  catch (const std::exception& failure)
   {
-    this->say(first_line(failure));
+    this->say(failure.what());
     return;
   }
   this->Function = function_of(this->Volume.volume->GetProperty());
@@ -218,8 +246,8 @@ void Viewer::reset_camera()
 void Viewer::camera_moved()
 {
   // The ball shows the sun as the camera sees it.
-  this->PanelChanged = this->PanelChanged ||
-    (this->Page == ControlPage::Light && this->Volume.options.medium.sun_direction);
+  this->PanelChanged = this->PanelChanged || (this->Page == ControlPage::Light &&
+                                               this->Volume.options.medium.sun_direction);
   this->Stale = true;
 }
 
@@ -236,17 +264,23 @@ bool Viewer::draw(Pane& pane, const Draw& draw_it)
     }
     return drawn;
   }
-  catch (const Failure& failure)
+  catch (const std::bad_alloc&)
   {
-    pane.failure = first_line(failure);
-    this->PicturesChanged = true;
-    return false;
+    pane.failure =
+      "memory: there is not enough: close other programs or take a smaller volume or window";
   }
+  catch (const std::exception& failure)
+  {
+    pane.failure = failure.what();
+  }
+  this->PicturesChanged = true;
+  return false;
 }
 
 bool Viewer::has_pictures() const
 {
-  return std::any_of(this->Panes.begin(), this->Panes.end(),
+  return std::any_of(this->Panes.begin(),
+    this->Panes.end(),
     [](const Pane& pane) { return !pane.painter->shot().picture.rgb.empty(); });
 }
 
@@ -258,8 +292,8 @@ void Viewer::draft(const KeepGoing& go, const std::function<void()>& drawn)
   const double seconds = this->Set.draft_seconds / static_cast<double>(this->Panes.size());
   for (Pane& pane : this->Panes)
   {
-    const bool done = this->draw(
-      pane, [&](Painter& p) { return p.draft(box.width, box.height, seconds, go); });
+    const bool done =
+      this->draw(pane, [&](Painter& p) { return p.draft(box.width, box.height, seconds, go); });
     if (!done && pane.failure.empty())
     {
       return; // ended: what ended it asks for another
@@ -275,8 +309,9 @@ void Viewer::draft(const KeepGoing& go, const std::function<void()>& drawn)
 bool Viewer::finished() const
 {
   return this->Paused ||
-    std::all_of(this->Panes.begin(), this->Panes.end(),
-      [](const Pane& pane) { return !pane.failure.empty() || pane.painter->finished(); });
+         std::all_of(this->Panes.begin(),
+           this->Panes.end(),
+           [](const Pane& pane) { return !pane.failure.empty() || pane.painter->finished(); });
 }
 
 bool Viewer::refine(const KeepGoing& go)
@@ -310,12 +345,31 @@ const Shot& Viewer::shot(int viewport) const
 
 void Viewer::say(const std::string& hint)
 {
-  if (hint != this->Hint)
+  const std::string before = this->line();
+  this->Hint = hint;
+  if (this->line() != before)
   {
-    this->Hint = hint;
     this->PanelChanged = true;
     this->PicturesChanged = this->PicturesChanged || this->Boxes.panel.empty();
   }
+}
+
+void Viewer::tell_progress(const std::string& progress)
+{
+  const std::string before = this->line();
+  this->Progress = progress;
+  if (this->line() != before)
+  {
+    this->PanelChanged = true;
+    this->PicturesChanged = this->PicturesChanged || this->Boxes.panel.empty();
+  }
+}
+
+std::string Viewer::line() const
+{
+  return !this->Progress.empty()              ? this->Progress
+         : this->Paused && this->Hint.empty() ? "paused"
+                                              : this->Hint;
 }
 
 ControlScene Viewer::control_scene() const
@@ -339,7 +393,7 @@ PanelModel Viewer::panel_model()
   model.title = this->Volume.input.name;
   model.length_unit = this->Volume.input.length_unit;
   model.value_unit = this->Volume.input.value_unit;
-  model.hint = this->Hint;
+  model.hint = this->line();
   model.point = this->Hold == Held::Point ? this->HeldPoint : -1;
   const auto own = std::find_if(
     this->Panes.begin(), this->Panes.end(), [](const Pane& pane) { return is_own(pane.kind); });
@@ -359,16 +413,17 @@ PanelModel Viewer::panel_model()
     {
       const VolumeSummary summary = input.sparse ? summarize(input.sparse, histogram_bins)
                                                  : summarize(input.image, 0, histogram_bins);
-      this->Values =
-        Histogram{ summary.minimum, summary.minimum + summary.bin_width * double(summary.histogram.size()),
-          summary.histogram };
+      this->Values = Histogram{ summary.minimum,
+        summary.minimum + summary.bin_width * double(summary.histogram.size()),
+        summary.histogram };
     }
     model.histogram = this->Values ? &*this->Values : nullptr;
   }
   if (this->Page == ControlPage::Matter && density && this->Figures.empty())
   {
     const double extinction = std::max({ this->Volume.options.extinction[0],
-      this->Volume.options.extinction[1], this->Volume.options.extinction[2] });
+      this->Volume.options.extinction[1],
+      this->Volume.options.extinction[2] });
     const std::string unit = input.length_unit.empty() ? "units" : input.length_unit;
     this->Figures.emplace_back("mean free path, density 1", with_unit(1.0 / extinction, unit));
     if (input.image)
@@ -396,6 +451,11 @@ PanelModel Viewer::panel_model()
 
 std::string Viewer::caption(const Pane& pane) const
 {
+  // Without a panel its line is here.
+  if (this->Boxes.panel.empty() && !this->line().empty() && &pane == &this->Panes.front())
+  {
+    return this->line();
+  }
   const Shot& shot = pane.painter->shot();
   if (!pane.failure.empty() || shot.picture.rgb.empty())
   {
@@ -415,7 +475,9 @@ Bitmap Viewer::bitmap_of(const Pane& pane) const
   const Shot& shot = pane.painter->shot();
   if (!pane.failure.empty() || shot.picture.rgb.empty())
   {
-    return page_of({ pane.failure.empty() ? "drawing ..." : pane.failure }, box.width, box.height,
+    return page_of({ pane.failure.empty() ? "drawing ..." : pane.failure },
+      box.width,
+      box.height,
       Metrics(this->Set.scale));
   }
   const Picture& picture = shot.picture;
@@ -445,8 +507,8 @@ void Viewer::tile_pictures()
     this->Tiles.resize(1);
     std::vector<std::pair<std::string, std::string>> rows = keys();
     rows.insert(rows.end(), this->Set.more_keys.begin(), this->Set.more_keys.end());
-    this->put(0, { 0, 0, width, this->Window[1] }, table_of(rows, width, this->Window[1], metrics),
-      true);
+    this->put(
+      0, { 0, 0, width, this->Window[1] }, table_of(rows, width, this->Window[1], metrics), true);
     return;
   }
   if (!this->compares())
@@ -456,9 +518,13 @@ void Viewer::tile_pictures()
     {
       const Box& strip = this->Boxes.captions[i];
       this->put(2 * i, this->Boxes.pictures[i], this->bitmap_of(this->Panes[i]), true);
-      this->put(2 * i + 1, strip,
-        caption_of(title_of(this->Panes[i].kind), this->caption(this->Panes[i]), strip.width,
-          strip.height, metrics),
+      this->put(2 * i + 1,
+        strip,
+        caption_of(title_of(this->Panes[i].kind),
+          this->caption(this->Panes[i]),
+          strip.width,
+          strip.height,
+          metrics),
         false);
     }
     return;
@@ -476,8 +542,8 @@ void Viewer::tile_pictures()
     names = title_of(shown.kind);
     figures = this->caption(shown);
   }
-  else if (!one.failure.empty() || !two.failure.empty() || one.painter->shot().picture.rgb.empty() ||
-    two.painter->shot().picture.rgb.empty())
+  else if (!one.failure.empty() || !two.failure.empty() ||
+           one.painter->shot().picture.rgb.empty() || two.painter->shot().picture.rgb.empty())
   {
     this->put(0, box, this->bitmap_of(one.failure.empty() ? two : one), true);
   }
@@ -494,12 +560,16 @@ void Viewer::tile_pictures()
       const Picture large = resized(numbers, box.width, box.height);
       Bitmap bitmap{ box.width, box.height, {} };
       bitmap.rgb.resize(large.rgb.size());
-      std::transform(large.rgb.begin(), large.rgb.end(), bitmap.rgb.begin(),
+      std::transform(large.rgb.begin(),
+        large.rgb.end(),
+        bitmap.rgb.begin(),
         [](float v) { return static_cast<unsigned char>(std::lround(v)); });
       return bitmap;
     };
-    this->put(0, box,
-      wiped(whole(one), whole(two), static_cast<int>(this->Divider * (box.width - 1))), true);
+    this->put(0,
+      box,
+      wiped(whole(one), whole(two), static_cast<int>(this->Divider * (box.width - 1))),
+      true);
     names += std::string(" | ") + title_of(two.kind);
     figures = this->caption(one) + " | " + this->caption(two);
   }
@@ -529,7 +599,8 @@ void Viewer::tile_panel()
 const std::vector<Tile>& Viewer::tiles()
 {
   const bool panel = !this->Boxes.panel.empty();
-  const bool had_panel = panel && !this->Tiles.empty() && this->Tiles.back().box.x == this->Boxes.panel.x;
+  const bool had_panel =
+    panel && !this->Tiles.empty() && this->Tiles.back().box.x == this->Boxes.panel.x;
   if (this->PicturesChanged || this->Tiles.empty())
   {
     Tile kept;

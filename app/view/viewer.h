@@ -75,7 +75,12 @@ public:
 
   /// Another scene in place of this one; the camera stays if `keep_camera` and the file names none.
   /// Throws Failure, and stays as it was.
-  void open(const nlohmann::ordered_json& scene, bool keep_camera = false);
+  void open(const nlohmann::ordered_json& scene);
+  /// Reads the input again. What was set stays, and so does what it was at first. Throws Failure, and
+  /// stays as it was.
+  void reload();
+  /// Another time step of a series, from 0 on. Throws as reload().
+  void go_to_time(int step);
 
   // Events, in pixels from the window's upper left corner.
   /// Whether the panel or a divider takes the mouse there; else it is the camera's.
@@ -89,6 +94,8 @@ public:
   /// Sets a key of the scene, as a scene file has it; null takes it out. What does not fit is told in the
   /// panel, and the scene stays.
   void set_key(const std::string& key, const nlohmann::ordered_json& value);
+  /// What the scene has of a key; null where it says nothing.
+  nlohmann::ordered_json key_of_scene(const std::string& key) const;
   /// The camera as it was at first.
   void reset_camera();
   /// The camera was moved by who has it.
@@ -112,8 +119,12 @@ public:
 
   /// All rectangles of the window; they do not overlap.
   const std::vector<Tile>& tiles();
-  /// One line: what is under way, or went wrong.
+  /// One line: what was done, or went wrong. Stays until the next change of the scene.
   void say(const std::string& hint);
+  /// What is under way, in place of that line while it is not empty.
+  void tell_progress(const std::string& progress);
+  /// Whether refinement is paused by its key, and goes on.
+  void go_on() { this->Paused = false; }
 
 private:
   struct Pane
@@ -125,7 +136,10 @@ private:
   struct Action;
   static const std::vector<Action>& actions();
 
-  void set(const nlohmann::ordered_json& scene);
+  void set(nlohmann::ordered_json scene);
+  void take(const nlohmann::ordered_json& scene);
+  void open_keeping(const nlohmann::ordered_json& scene);
+  std::string line() const;
   void make_panes();
   void give_scene();
   void changed();
@@ -172,6 +186,7 @@ private:
   TransferFunction Function;
   std::vector<std::pair<std::string, std::string>> Figures;
   std::string Hint;
+  std::string Progress;
   bool Stale = true;
   bool PicturesChanged = true;
   bool PanelChanged = true;

@@ -29,9 +29,17 @@ constexpr double key_step = 1.0 / 40.0;
 std::string readable(const std::string& symbol)
 {
   static const std::pair<const char*, const char*> names[] = { { "bracketleft", "[" },
-    { "bracketright", "]" }, { "minus", "-" }, { "plus", "+" }, { "comma", "," }, { "period", "." },
-    { "less", "<" }, { "greater", ">" }, { "question", "?" }, { "space", "Space" },
-    { "Prior", "Page Up" }, { "Next", "Page Down" } };
+    { "bracketright", "]" },
+    { "minus", "-" },
+    { "plus", "+" },
+    { "comma", "," },
+    { "period", "." },
+    { "less", "<" },
+    { "greater", ">" },
+    { "question", "?" },
+    { "space", "Space" },
+    { "Prior", "Page Up" },
+    { "Next", "Page Down" } };
   for (const auto& [name, sign] : names)
   {
     if (symbol == name)
@@ -46,7 +54,7 @@ std::string readable(const std::string& symbol)
 
 struct Viewer::Action
 {
-  const char* symbol; ///< X's name of the key
+  const char* symbol;  ///< X's name of the key
   const char* meaning; ///< "" where another action's line tells it
   std::function<void(Viewer&)> run;
 };
@@ -54,7 +62,8 @@ struct Viewer::Action
 const std::vector<Viewer::Action>& Viewer::actions()
 {
   static const std::vector<Action> all = {
-    { "question", "these keys",
+    { "question",
+      "these keys",
       [](Viewer& v)
       {
         v.Help = !v.Help;
@@ -67,33 +76,42 @@ const std::vector<Viewer::Action>& Viewer::actions()
     { "4", "", [](Viewer& v) { v.show_viewports(4); } },
     { "m", "another mapper in the last viewport", [](Viewer& v) { v.next_mapper(); } },
     { "s", "side by side", [](Viewer& v) { v.arrange(Arrangement::SideBySide); } },
-    { "w", "wipe: drag the line between two mappers", [](Viewer& v) { v.arrange(Arrangement::Wipe); } },
+    { "w",
+      "wipe: drag the line between two mappers",
+      [](Viewer& v) { v.arrange(Arrangement::Wipe); } },
     { "f", "flicker between two mappers", [](Viewer& v) { v.arrange(Arrangement::Flicker); } },
-    { "x", "difference of two mappers, amplified",
+    { "x",
+      "difference of two mappers, amplified",
       [](Viewer& v) { v.arrange(Arrangement::Difference); } },
-    { "p", "go on with path tracing, or stop at the ray march",
+    { "p",
+      "go on with path tracing, or stop at the ray march",
       [](Viewer& v) { v.switch_paths(); } },
     { "r", "the view as it was at first", [](Viewer& v) { v.reset_camera(); } },
-    { "space", "pause refinement, and go on",
+    { "space",
+      "pause refinement, and go on",
       [](Viewer& v)
       {
         v.Paused = !v.Paused;
-        v.say(v.Paused ? "paused" : "");
+        v.PanelChanged = true;
+        v.say("");
       } },
     { "l", "sun on, or all light and matter off", [](Viewer& v) { v.switch_light(); } },
-    { "Tab", "panel on or off",
+    { "Tab",
+      "panel on or off",
       [](Viewer& v)
       {
         v.Set.panel = !v.Set.panel;
         v.resize(v.Window[0], v.Window[1]);
       } },
-    { "n", "next page of the panel",
+    { "n",
+      "next page of the panel",
       [](Viewer& v)
       {
         v.Page = static_cast<ControlPage>((static_cast<int>(v.Page) + 1) % 4);
         v.PanelChanged = true;
       } },
-    { "b", "background black, grey or white",
+    { "b",
+      "background black, grey or white",
       [](Viewer& v)
       {
         const double now = v.Volume.options.background[0];
@@ -104,8 +122,21 @@ const std::vector<Viewer::Action>& Viewer::actions()
       } },
     { "Prior", "the time step before", [](Viewer& v) { v.step_time(-1); } },
     { "Next", "the next time step", [](Viewer& v) { v.step_time(1); } },
-    { "BackSpace", "all controls as they were at first",
-      [](Viewer& v) { v.set(ordered_json(v.First)); } },
+    { "BackSpace",
+      "all controls as they were at first",
+      [](Viewer& v)
+      {
+        ordered_json scene = v.First;
+        for (const char* key : { "time", "time-step" }) // which of the input is shown
+        {
+          scene.erase(key);
+          if (v.Scene.contains(key))
+          {
+            scene[key] = v.Scene[key];
+          }
+        }
+        v.set(scene);
+      } },
   };
   return all;
 }
@@ -158,6 +189,11 @@ std::vector<std::pair<std::string, std::string>> Viewer::keys()
     }
   }
   return all;
+}
+
+ordered_json Viewer::key_of_scene(const std::string& key) const
+{
+  return this->Scene.contains(key) ? this->Scene[key] : ordered_json();
 }
 
 void Viewer::set_key(const std::string& key, const ordered_json& value)
@@ -296,9 +332,17 @@ bool Viewer::drag(int x, int y)
       return true;
     case Held::Point:
     {
-      const CurveField field = curve_field(this->panel_model(), this->HeldSpot.box);
+      const PanelModel model = this->panel_model();
+      if (!model.function || this->HeldPoint >= static_cast<int>(this->Function.opacity.size()))
+      {
+        this->Hold = Held::Nothing; // it went under the hand
+        return false;
+      }
+      const CurveField field = curve_field(model, this->HeldSpot.box);
       TransferFunction function = this->Function;
-      move_point(function, this->HeldPoint, field.value_of(x - this->Boxes.panel.x),
+      move_point(function,
+        this->HeldPoint,
+        field.value_of(x - this->Boxes.panel.x),
         field.opacity_of(y - this->Boxes.panel.y));
       this->set_function(function);
       return true;
@@ -485,19 +529,44 @@ void Viewer::switch_light()
   ordered_json scene = this->Scene;
   if (this->Volume.options.medium.has_medium())
   {
-    for (const char* key : { "sun-direction", "sun-irradiance", "sky-radiance", "ground-radiance",
-           "environment", "environment-lights", "environment-rotation", "point-light", "lights", "albedo",
-           "anisotropy", "phase", "lobes", "emission", "black-body", "octaves", "octave-attenuation",
-           "octave-contribution", "octave-anisotropy", "silver-lining", "silver-lining-spread",
-           "silver-lining-back", "powder", "powder-form", "powder-scale" })
+    for (const char* key : { "sun-direction",
+           "sun-irradiance",
+           "sky-radiance",
+           "ground-radiance",
+           "environment",
+           "environment-lights",
+           "environment-rotation",
+           "point-light",
+           "lights",
+           "albedo",
+           "anisotropy",
+           "phase",
+           "lobes",
+           "emission",
+           "black-body",
+           "temperature-array",
+           "octaves",
+           "octave-attenuation",
+           "octave-contribution",
+           "octave-anisotropy",
+           "silver-lining",
+           "silver-lining-spread",
+           "silver-lining-back",
+           "powder",
+           "powder-form",
+           "powder-scale" })
     {
       scene.erase(key);
+    }
+    if (!this->Volume.options.medium.has_fog())
+    {
+      scene.erase("shadows");
+      scene.erase("shadow-sample-distance");
     }
   }
   else
   {
-    const Triple d =
-      sun_direction(this->control_scene().first_sun, this->Volume.options.medium.up);
+    const Triple d = sun_direction(this->control_scene().first_sun, this->Volume.options.medium.up);
     scene["sun-direction"] = { d[0], d[1], d[2] };
   }
   this->set(scene);
@@ -579,17 +648,12 @@ void Viewer::step_time(int by)
     return;
   }
   const int step = std::clamp(this->Volume.input.time_step + by, 0, count - 1);
-  ordered_json scene = this->Scene;
-  scene.erase("time");
-  scene["time-step"] = step;
-  const ordered_json first = this->First;
   try
   {
-    this->open(scene, true);
-    this->First = first;
+    this->go_to_time(step);
     this->say("time step " + std::to_string(step) + " of " + std::to_string(count - 1));
   }
-  catch (const Failure& failure)
+  catch (const std::exception& failure)
   {
     this->say(failure.what());
   }

@@ -1,6 +1,8 @@
 #include "x_input.h"
 
 #include <X11/Xlib.h>
+#include <X11/Xutil.h>
+#include <X11/keysym.h>
 
 #include <cstdlib>
 
@@ -28,9 +30,17 @@ int note_input(Display*, XEvent* event, XPointer found)
   return False; // none is taken
 }
 
+int note_escape(Display*, XEvent* event, XPointer found)
+{
+  if (event->type == KeyPress && XLookupKeysym(&event->xkey, 0) == XK_Escape)
+  {
+    *reinterpret_cast<bool*>(found) = true;
+  }
+  return False;
 }
 
-bool input_waits(void* display)
+/// Whether `note` found something among the events that wait.
+bool any_waits(void* display, int (*note)(Display*, XEvent*, XPointer))
 {
   if (!display)
   {
@@ -38,9 +48,20 @@ bool input_waits(void* display)
   }
   bool found = false;
   XEvent event;
-  XCheckIfEvent(
-    static_cast<Display*>(display), &event, note_input, reinterpret_cast<XPointer>(&found));
+  XCheckIfEvent(static_cast<Display*>(display), &event, note, reinterpret_cast<XPointer>(&found));
   return found;
+}
+
+}
+
+bool input_waits(void* display)
+{
+  return any_waits(display, note_input);
+}
+
+bool escape_was_pressed(void* display)
+{
+  return any_waits(display, note_escape);
 }
 
 bool display_opens()

@@ -9,6 +9,9 @@ namespace brume::app
 /// nothing from the queue. False for a null display.
 bool input_waits(void* display);
 
+/// Whether Escape was pressed and its window has not been told yet. Takes nothing from the queue.
+bool escape_was_pressed(void* display);
+
 /// Whether the display that DISPLAY names can be opened.
 bool display_opens();
 

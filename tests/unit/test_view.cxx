@@ -281,7 +281,7 @@ TEST(Scenes, ACommandLineAndAFileAreOneScene)
   command.parse(
     "--scene " + path + " --mappers raymarch --albedo 0.5,0.25,1 --clipping-plane 1,0,0,-7 "
     "--force shadows=off --quiet --sun-direction 0,1,1");
-  const ordered_json scene = scene_of(command);
+  const ordered_json scene = scene_of(command, options);
   EXPECT_EQ(scene["input"], BRUME_TEST_OUTPUT "/view-ball.nrrd");
   EXPECT_EQ(scene["albedo"], ordered_json({ 0.5, 0.25, 1.0 }));
   EXPECT_EQ(scene["clipping-plane"], ordered_json::parse("[[1.0, 0.0, 0.0, -7.0]]"));
@@ -411,6 +411,67 @@ TEST(Viewer, KeysChangeTheSceneThatIsSaved)
   EXPECT_FALSE(viewer.scene().contains("sun-direction"));
   finish(viewer);
   EXPECT_LE(difference(before, viewer.shot(0).picture), 1e-6);
+}
+
+// What a mapper was once told must not stay when the scene no longer has it.
+TEST(Viewer, WhatIsTakenOutOfTheSceneIsGone)
+{
+  Viewer viewer(ball_scene(), settings_of({ MapperKind::RayMarch }));
+  viewer.resize(160, 120);
+  finish(viewer);
+  const brume::Picture before = viewer.shot(0).picture;
+  const std::pair<const char*, ordered_json> cuts[] = {
+    { "clipping-plane", ordered_json::parse("[[1, 0, 0, -12]]") },
+    { "cropping", ordered_json::parse("[0, 12, 0, 23, 0, 23]") },
+    { "force", ordered_json::parse(R"({"absorption": false})") },
+    { "blend-mode", "mip" },
+    { "opacity", ordered_json::parse("[[50, 0], [250, 0.02]]") },
+  };
+  for (const auto& [key, value] : cuts)
+  {
+    viewer.set_key(key, value);
+    finish(viewer);
+    EXPECT_GT(difference(before, viewer.shot(0).picture), 0.05) << key;
+    EXPECT_EQ(viewer.key_of_scene(key), value);
+    viewer.set_key(key, nullptr);
+    finish(viewer);
+    EXPECT_LE(difference(before, viewer.shot(0).picture), 1e-6) << key;
+  }
+  // Two planes, one after another: the second alone cuts.
+  viewer.set_key("clipping-plane", ordered_json::parse("[[1, 0, 0, -12]]"));
+  viewer.set_key("clipping-plane", ordered_json::parse("[[-1, 0, 0, 12]]"));
+  finish(viewer);
+  EXPECT_LE(difference(viewer.shot(0).picture, rendered(viewer.scene())), 0.004);
+}
+
+// Keys that others need are saved with them, or not at all: --scene would refuse the file.
+TEST(Viewer, SavedScenesAreReadAgain)
+{
+  ordered_json scene = ball_scene();
+  scene["silver-lining"] = 1.0;
+  scene["silver-lining-spread"] = 0.3;
+  scene["sun-direction"] = { 0.0, 0.0, 1.0 };
+  scene["sun-irradiance"] = { 1.0, 2.0, 3.0 };
+  Viewer viewer(scene, settings_of({ MapperKind::RayMarch }));
+  const auto reads = [&]
+  {
+    const std::string path = BRUME_TEST_OUTPUT "/view-saved.json";
+    std::ofstream(path) << viewer.scene().dump();
+    CLI::App command;
+    SceneOptions options;
+    add_scene_options(command, options, "preset");
+    command.get_option("INPUT")->required(false);
+    EXPECT_NO_THROW(command.parse("--scene " + path)) << viewer.scene().dump(2);
+  };
+  reads();
+  viewer.set_key("silver-lining", nullptr);
+  EXPECT_TRUE(viewer.key_of_scene("silver-lining-spread").is_null());
+  reads();
+  viewer.key("l");
+  reads();
+  viewer.key("BackSpace");
+  EXPECT_EQ(viewer.key_of_scene("silver-lining"), 1.0);
+  reads();
 }
 
 TEST(Viewer, DraftsAreCoarseWhereTimeIsShortAndNothingIsLostWhenTheyEnd)

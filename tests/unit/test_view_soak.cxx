@@ -117,7 +117,7 @@ TEST(ViewSoak, RandomInputLeavesAllInOrder)
     }
     else if (what < 77)
     {
-      viewer.open(up_to(1) ? classified : density, up_to(1) == 1);
+      viewer.open(up_to(1) ? classified : density);
     }
     else if (what < 80)
     {
