@@ -445,9 +445,12 @@ struct ViewWindow::Internals
           {
             throw Failure("EXR", "VTK's mappers make no film", "show one of Brume's first");
           }
+          while (!shot.whole && this->refine_once(false))
+          {
+          }
           if (!shot.whole)
           {
-            throw Failure("EXR", "the picture is a draft still", "wait for the whole one");
+            throw Failure("EXR", "there is no whole picture", "see the viewport");
           }
           const std::string path = free_name(this->Set.folder, "view", ".exr");
           write_exr(*shot.film, path);
