@@ -101,7 +101,9 @@ struct StockPainter::Internals
     }
     this->Shown.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    this->Shown.picture = distance > 1.0 ? this->Renderer->frame() : this->Renderer->picture();
+    // The exact picture of the CPU mapper is the volume alone.
+    const bool exact = distance <= 1.0 && this->Scene.meshes.empty();
+    this->Shown.picture = exact ? this->Renderer->picture() : this->Renderer->frame();
     this->Shown.failure.clear();
     this->Shown.effects.clear();
     return true;
