@@ -2,6 +2,8 @@
 // viewer_keys.cxx, viewer_mouse.cxx, and what they change: viewer_changes.cxx.
 #include "viewer.h"
 
+#include "fog_painter.h"
+
 #include "command.h"
 
 #include "vtkBrumeSparseVolume.h"
@@ -90,11 +92,8 @@ void Viewer::open(const ordered_json& scene)
 void Viewer::take(const ordered_json& scene)
 {
   const ParsedScene parsed(with_size(scene, this->Boxes.pictures.front()));
+  refuse_empty(parsed.options());
   VolumeScene volume = make_volume_scene(parsed.options());
-  if (!volume.volume)
-  {
-    throw Failure("INPUT", "it is missing", "name a volume", BadCall);
-  }
   this->Scene = scene;
   this->Parsed = parsed;
   this->Volume = std::move(volume);
@@ -142,7 +141,7 @@ void Viewer::make_panes()
   {
     Pane pane;
     pane.kind = kind;
-    pane.painter = make_painter(kind);
+    pane.painter = this->Volume.volume ? make_painter(kind) : make_fog_painter(kind);
     this->Panes.push_back(std::move(pane));
   }
   this->give_scene();
@@ -207,6 +206,7 @@ void Viewer::set(ordered_json scene)
   {
     drop_orphans(scene);
     const ParsedScene parsed(with_size(scene, this->Boxes.pictures.front()));
+    refuse_empty(parsed.options());
     update(this->Volume, parsed.options());
     this->Parsed = parsed;
     this->Scene = scene;

@@ -2,6 +2,10 @@
 #include "view_support.h"
 
 #include "display_options.h"
+#include "mesh_scene.h"
+#include "private_display.h"
+
+#include "vtkBrumeFog.h"
 
 #include "view/compose.h"
 #include "view/controls.h"
@@ -488,6 +492,73 @@ TEST(Viewer, ASceneThatCannotBeLeavesTheOneBefore)
   ordered_json scene = ball_scene();
   scene["blend-mode"] = "mip";
   scene["sun-direction"] = { 0.0, 0.0, 1.0 };
+  EXPECT_THROW(viewer.open(scene), Failure);
+}
+
+// As `brume render` has it: surfaces in fog need no volume, and anything less is refused.
+TEST(Viewer, SurfacesInFogNeedNoVolume)
+{
+  const PrivateDisplay display;
+  if (!display.available())
+  {
+    GTEST_SKIP() << display.reason();
+  }
+  const std::string mesh = BRUME_TEST_OUTPUT "/view-tent.ply";
+  std::ofstream(mesh) << "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                         "property float z\nelement face 2\nproperty list uchar int vertex_indices\n"
+                         "end_header\n0 0 0\n20 0 0\n10 5 15\n10 30 0\n3 0 1 2\n3 1 3 2\n";
+  ordered_json scene{ { "mesh", mesh }, { "quiet", true }, { "fog-extinction", 0.005 },
+    { "sun-direction", { 1.0, -1.0, 1.0 } } };
+  Viewer viewer(scene, settings_of({ MapperKind::RayMarch, MapperKind::FixedPoint }));
+  viewer.resize(900, 300);
+  const auto expected = [&]
+  {
+    const ParsedScene parsed(viewer.scene());
+    const VolumeScene drawn = make_volume_scene(parsed.options());
+    fit_clipping_range(drawn);
+    const SurfacePicture surfaces = draw_meshes(drawn);
+    brume::Film film(drawn.width(), drawn.height());
+    EXPECT_TRUE(drawn.fog->RenderFilm(drawn.camera, drawn.lights, film, surfaces.depth));
+    return brume::Picture{ film.width, film.height, over_scene(film, drawn, surfaces) };
+  };
+  finish(viewer);
+  const brume::Picture before = viewer.shot(0).picture;
+  EXPECT_TRUE(viewer.shot(1).picture.rgb.empty()); // VTK's mappers say why instead
+  EXPECT_LE(difference(before, expected()), 1e-3);
+  // All that is pressed and keyed does something or nothing, and the fog stays.
+  const Box panel = viewer.tiles().back().box;
+  for (int page = 0; page < 4; ++page)
+  {
+    for (int y = 0; y < panel.height; y += 9)
+    {
+      EXPECT_TRUE(viewer.press(panel.x + panel.width / 2, y, y % 2 == 0, false));
+      viewer.drag(panel.x + 20, y + 5);
+      viewer.release();
+      viewer.tiles();
+    }
+    viewer.key("n");
+  }
+  for (const auto& [name, meaning] : Viewer::keys())
+  {
+    viewer.key(name);
+  }
+  viewer.key("BackSpace");
+  viewer.go_on();
+  viewer.reset_camera();
+  finish(viewer);
+  const brume::Picture thin = viewer.shot(0).picture;
+  viewer.set_key("fog-extinction", 0.05);
+  finish(viewer);
+  EXPECT_GT(difference(thin, viewer.shot(0).picture), 0.05);
+  EXPECT_LE(difference(viewer.shot(0).picture, expected()), 1e-3);
+  viewer.set_key("fog-extinction", nullptr); // would leave nothing
+  EXPECT_EQ(viewer.key_of_scene("fog-extinction"), 0.05);
+  // To a volume and back.
+  viewer.open(ball_scene());
+  finish(viewer);
+  viewer.open(scene);
+  finish(viewer);
+  scene.erase("mesh");
   EXPECT_THROW(viewer.open(scene), Failure);
 }
 
