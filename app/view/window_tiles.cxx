@@ -9,6 +9,8 @@
 #include "vtkTexture.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <algorithm>
+
 namespace brume::app
 {
 
@@ -40,9 +42,8 @@ struct WindowTiles::Shown
     this->renderer->SetActiveCamera(camera);
     vtkNew<vtkUnsignedCharArray> bytes;
     bytes->SetNumberOfComponents(3);
-    bytes->SetArray(const_cast<unsigned char*>(tile.bitmap.rgb.data()),
-      static_cast<vtkIdType>(tile.bitmap.rgb.size()),
-      1);
+    bytes->SetNumberOfTuples(static_cast<vtkIdType>(tile.bitmap.rgb.size() / 3));
+    std::copy(tile.bitmap.rgb.begin(), tile.bitmap.rgb.end(), bytes->GetPointer(0));
     this->image->SetDimensions(tile.bitmap.width, tile.bitmap.height, 1);
     this->image->GetPointData()->SetScalars(bytes);
     this->image->Modified();
