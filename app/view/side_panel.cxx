@@ -358,7 +358,8 @@ private:
       {
         return;
       }
-      const std::string cost = !std::isfinite(effect.milliseconds) || effect.milliseconds <= 0.0
+      const std::string cost = !this->Model.times || !std::isfinite(effect.milliseconds) ||
+          effect.milliseconds <= 0.0
         ? ""
         : figure(effect.milliseconds, 2) + " ms";
       const int baseline = this->Y + this->M.text;

@@ -21,6 +21,7 @@ struct PanelModel
   ControlPage page = ControlPage::Light;
   ControlScene scene;
   const Shot* shot = nullptr;      ///< of the viewport whose plan is shown; null for none
+  bool times = true;               ///< whether the plan tells what effects cost
   std::string title;               ///< the input's name
   std::string preset;              ///< "mr-brain", or empty for a density
   std::string length_unit;         ///< "mm"; empty where unknown

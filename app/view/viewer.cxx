@@ -343,6 +343,11 @@ const Shot& Viewer::shot(int viewport) const
   return this->Panes.at(static_cast<std::size_t>(viewport)).painter->shot();
 }
 
+const std::string& Viewer::failure(int viewport) const
+{
+  return this->Panes.at(static_cast<std::size_t>(viewport)).failure;
+}
+
 void Viewer::say(const std::string& hint)
 {
   const std::string before = this->line();
@@ -394,6 +399,7 @@ PanelModel Viewer::panel_model()
   model.length_unit = this->Volume.input.length_unit;
   model.value_unit = this->Volume.input.value_unit;
   model.hint = this->line();
+  model.times = this->Set.times;
   model.point = this->Hold == Held::Point ? this->HeldPoint : -1;
   const auto own = std::find_if(
     this->Panes.begin(), this->Panes.end(), [](const Pane& pane) { return is_own(pane.kind); });
@@ -461,7 +467,11 @@ std::string Viewer::caption(const Pane& pane) const
   {
     return pane.failure.empty() ? "drawing" : "no picture";
   }
-  std::string text = shot.state + ", " + figure(1e3 * shot.seconds) + " ms";
+  std::string text = shot.state;
+  if (this->Set.times)
+  {
+    text += ", " + figure(1e3 * shot.seconds) + " ms";
+  }
   if (shot.error)
   {
     text += ", error " + figure(*shot.error, 2);
@@ -537,7 +547,10 @@ void Viewer::tile_pictures()
   std::string figures;
   if (this->Set.arrangement == Arrangement::Flicker)
   {
-    const Pane& shown = this->SecondShown ? two : one;
+    const Pane& due = this->SecondShown ? two : one;
+    const Pane& other = this->SecondShown ? one : two;
+    const bool waits = due.failure.empty() && due.painter->shot().picture.rgb.empty();
+    const Pane& shown = waits && !other.painter->shot().picture.rgb.empty() ? other : due;
     this->put(0, box, this->bitmap_of(shown), true);
     names = title_of(shown.kind);
     figures = this->caption(shown);
@@ -545,7 +558,10 @@ void Viewer::tile_pictures()
   else if (!one.failure.empty() || !two.failure.empty() ||
            one.painter->shot().picture.rgb.empty() || two.painter->shot().picture.rgb.empty())
   {
-    this->put(0, box, this->bitmap_of(one.failure.empty() ? two : one), true);
+    // What failed says why; of two that are being drawn the first has its picture first.
+    const bool second = one.failure.empty() &&
+                        (!two.failure.empty() || one.painter->shot().picture.rgb.empty());
+    this->put(0, box, this->bitmap_of(second ? two : one), true);
   }
   else if (this->Set.arrangement == Arrangement::Wipe)
   {
