@@ -399,9 +399,10 @@ private:
 
   void effect(const ShownEffect& effect, int top)
   {
-    const std::string cost = !std::isfinite(effect.milliseconds) || effect.milliseconds <= 0.0
-                               ? ""
-                               : figure(effect.milliseconds, 2) + " ms";
+    const std::string cost =
+      !this->Model.times || !std::isfinite(effect.milliseconds) || effect.milliseconds <= 0.0
+        ? ""
+        : figure(effect.milliseconds, 2) + " ms";
     const int baseline = top + this->M.text;
     const int mark = this->M.text - 3;
     const int left = this->Sheet.left();

@@ -24,6 +24,7 @@ struct PanelModel
   int scroll = 0; ///< pixels of the page above what is seen; cut off at the page's end
   ControlScene scene;
   const Shot* shot = nullptr;      ///< of the viewport whose plan is shown; null for none
+  bool times = true;               ///< whether the plan tells what effects cost
   std::string title;               ///< the input's name
   std::string preset;              ///< "mr-brain", or empty for a density
   std::string length_unit;         ///< "mm"; empty where unknown

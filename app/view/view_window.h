@@ -1,9 +1,12 @@
 // The window of `brume view`: VTK's, with VTK's interactor; shows what a Viewer draws.
 #pragma once
 
+#include "view_times.h"
 #include "viewer.h"
 
 #include <chrono>
+#include <exception>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -15,16 +18,6 @@ class vtkRenderWindowInteractor;
 namespace brume::app
 {
 
-/// How long the window took to answer, in seconds.
-struct ViewTimes
-{
-  double first_picture = 0.0;      ///< from Settings::start to the first picture on it
-  std::vector<double> responses;   ///< from an event to its picture on the window, one a picture
-  std::vector<double> interruptions; ///< from asking a refinement to end to its end
-  /// Of each refinement, the longest time in which it did not look for what the user does.
-  std::vector<double> longest_deaf;
-};
-
 class ViewWindow
 {
 public:
@@ -35,6 +28,8 @@ public:
     std::string title = "Brume";
     std::string folder = "."; ///< where pictures and scenes are saved
     std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+    /// Told of each failure that the window tells its user.
+    std::function<void(const std::exception&)> failed;
   };
 
   /// Keys that the window takes itself, for people, and what they do.
@@ -56,8 +51,8 @@ public:
   void settle();
   /// The window as it is, as a .png file.
   void save_screenshot(const std::string& path);
-  /// Pictures of a full turn around the view's up, numbered, in a new folder below Settings::folder, and a
-  /// video where ffmpeg is there. Returns the folder. Escape ends it early.
+  /// Pictures of a full turn around the view's up, numbered, in a new folder below
+  /// Settings::folder, and a video where ffmpeg is there. Returns the folder. Escape ends it early.
   std::string record_turntable(int pictures = 90);
   /// The same of all time steps.
   std::string record_series();

@@ -328,6 +328,11 @@ const Shot& Viewer::shot(int viewport) const
   return this->Panes.at(static_cast<std::size_t>(viewport)).painter->shot();
 }
 
+const std::string& Viewer::failure(int viewport) const
+{
+  return this->Panes.at(static_cast<std::size_t>(viewport)).failure;
+}
+
 void Viewer::say(const std::string& hint)
 {
   const std::string before = this->line();
@@ -356,4 +361,5 @@ std::string Viewer::line() const
          : this->Paused && this->Hint.empty() ? "paused"
                                               : this->Hint;
 }
+
 }

@@ -54,6 +54,7 @@ public:
     std::array<int, 2> window{ 1280, 760 }; ///< pixels; what the camera is first fitted to
     double scale = 1.0;          ///< of lettering and panel
     bool panel = true;
+    bool times = true; ///< whether captions and the plan tell how long pictures took
     /// Keys of who shows it, for the page of help.
     std::vector<std::pair<std::string, std::string>> more_keys;
     double draft_seconds = 0.04; ///< that pictures of all viewports take together while something moves
@@ -118,6 +119,8 @@ public:
   bool finished() const;
   /// Of the viewport, in the order of Settings::mappers.
   const Shot& shot(int viewport) const;
+  /// Why that viewport has no picture; empty where it has one, or none yet.
+  const std::string& failure(int viewport) const;
 
   /// All rectangles of the window; they do not overlap.
   const std::vector<Tile>& tiles();

@@ -88,6 +88,7 @@ PanelModel Viewer::panel_model()
   model.length_unit = this->Volume.input.length_unit;
   model.value_unit = this->Volume.input.value_unit;
   model.hint = this->line();
+  model.times = this->Set.times;
   model.hand = this->Hand;
   model.chosen = this->Chosen;
   model.picker = this->Picker;
@@ -158,7 +159,11 @@ std::string Viewer::caption(const Pane& pane) const
   {
     return pane.failure.empty() ? "drawing" : "no picture";
   }
-  std::string text = shot.state + ", " + figure(1e3 * shot.seconds) + " ms";
+  std::string text = shot.state;
+  if (this->Set.times)
+  {
+    text += ", " + figure(1e3 * shot.seconds) + " ms";
+  }
   if (shot.error)
   {
     text += ", error " + figure(*shot.error, 2);
@@ -234,7 +239,10 @@ void Viewer::tile_pictures()
   std::string figures;
   if (this->Set.arrangement == Arrangement::Flicker)
   {
-    const Pane& shown = this->SecondShown ? two : one;
+    const Pane& due = this->SecondShown ? two : one;
+    const Pane& other = this->SecondShown ? one : two;
+    const bool waits = due.failure.empty() && due.painter->shot().picture.rgb.empty();
+    const Pane& shown = waits && !other.painter->shot().picture.rgb.empty() ? other : due;
     this->put(0, box, this->bitmap_of(shown), true);
     names = title_of(shown.kind);
     figures = this->caption(shown);
@@ -242,7 +250,10 @@ void Viewer::tile_pictures()
   else if (!one.failure.empty() || !two.failure.empty() ||
            one.painter->shot().picture.rgb.empty() || two.painter->shot().picture.rgb.empty())
   {
-    this->put(0, box, this->bitmap_of(one.failure.empty() ? two : one), true);
+    // What failed says why; of two that are being drawn the first has its picture first.
+    const bool second = one.failure.empty() &&
+                        (!two.failure.empty() || one.painter->shot().picture.rgb.empty());
+    this->put(0, box, this->bitmap_of(second ? two : one), true);
   }
   else if (this->Set.arrangement == Arrangement::Wipe)
   {
