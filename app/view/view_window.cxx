@@ -61,6 +61,8 @@ void ViewWindow::Internals::observe()
   this->Style->Drag = [this, taken](int x, int y)
   { return taken([&] { return this->View.drag(x, y); }); };
   this->Style->Release = [this, taken] { return taken([&] { return this->View.release(); }); };
+  this->Style->Wheel = [this, taken](int x, int y, int steps)
+  { return taken([&] { return this->View.wheel(x, y, steps); }); };
   this->Style->Key = [this](const std::string& symbol, bool control)
   { this->try_to([&] { this->key(symbol, control); }); };
   this->Style->Done = [this] { this->try_to([&] { this->want_picture(); }); };
