@@ -38,6 +38,8 @@ struct WindowTiles::Shown
       double(size[1] - box.y - box.height) / size[1],
       double(box.x + box.width) / size[0],
       double(size[1] - box.y) / size[1]);
+    // A new renderer may take the aspect for known (stock_renderer.cxx).
+    this->renderer->SetAspect(double(box.width) / box.height, 1.0);
     this->renderer->SetInteractive(tile.picture);
     this->renderer->SetActiveCamera(camera);
     vtkNew<vtkUnsignedCharArray> bytes;

@@ -207,8 +207,9 @@ TEST(ViewWindowEvents, ARefinementEndsWhenTheMouseMoves)
         sleep(0.3 + 0.05 * i); // the refinement is under way
         const Clock::time_point sent = Clock::now();
         x.move(300 + 4 * i + 4, 300 + 2 * i);
-        const RunningWindow::Frame after = running.wait_for(
-          [&](const auto& frame) { return frame.time > sent && frame.camera != before.camera; });
+        const RunningWindow::Frame after = running.wait_for([&](const auto& frame)
+          { return frame.time > sent && frame.camera != before.camera; },
+          5.0 * soon);
         ASSERT_NE(after.camera, before.camera) << "no picture of the new camera";
         EXPECT_TRUE(after.draft);
         to_end.push_back(seconds_between(sent, running.told()));

@@ -4,6 +4,7 @@
 
 #include "command.h"
 
+#include "scene_file.h"
 #include "view/recording.h"
 
 #include "vtkImageData.h"
@@ -54,6 +55,12 @@ const std::vector<Case>& cases()
     { "help", 620, 400, 1.0, {}, false, "help" },
     { "help-large", 800, 600, 2.0, {}, false, "help" },
     { "crop", 620, 400, 1.0, {}, false, "crop" },
+    { "light-page", 620, 400, 1.0, {}, true, "sun" },
+    { "light-page-large", 800, 600, 2.0, {}, true, "sun-scrolled" },
+    { "colour-picker", 620, 560, 1.0, {}, true, "colour" },
+    { "matter-page", 620, 560, 1.0, {}, true, "matter" },
+    { "look-page", 620, 560, 1.0, {}, false, "look" },
+    { "plan-page", 620, 400, 1.0, {}, true, "plan" },
   };
   return all;
 }
@@ -65,6 +72,7 @@ ordered_json scene_of(const Case& one)
   if (one.density)
   {
     scene["extinction"] = 0.002;
+    scene["exposure"] = 2.5;
   }
   else
   {
@@ -203,6 +211,28 @@ TEST_P(ViewWindowPicture, IsTheOneThatWasLookedAt)
     const std::string path = std::string(BRUME_TEST_OUTPUT "/view-") + one.name + ".png";
     save_png(now, path);
     std::cout << "what is shown now: " << path << '\n';
+  }
+}
+
+// VTK's renderers take over from what was in their memory before them whether their aspect is
+// known.
+TEST(ViewWindowStock, PicturesAreNotStretchedByThoseBefore)
+{
+  ordered_json scene = scene_of({});
+  scene["resolution"] = { 200, 120 };
+  const ParsedScene parsed(scene);
+  const VolumeScene volume = make_volume_scene(parsed.options());
+  const KeepGoing go = [](double) { return true; };
+  std::vector<float> first;
+  for (int i = 0; i < 40; ++i)
+  {
+    const std::unique_ptr<Painter> painter = make_painter(MapperKind::FixedPoint);
+    painter->set_scene(volume);
+    painter->draft(200, 120, 0.04, go);
+    ASSERT_TRUE(painter->refine(200, 120, go));
+    const std::vector<float>& now = painter->shot().picture.rgb;
+    first = first.empty() ? now : first;
+    ASSERT_EQ(now, first) << "picture " << i;
   }
 }
 

@@ -536,6 +536,6 @@ TEST(ViewWindowSoak, RandomInputLeavesAllInOrder)
   EXPECT_GT(actions, 10);
   EXPECT_GT(soak.failures(), 0);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-  EXPECT_LT(grown, 20.0);
+  EXPECT_LT(grown, 10.0); // after 180 s, too; measured were -1 to 2
 #endif
 }
