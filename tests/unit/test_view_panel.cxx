@@ -327,6 +327,18 @@ TEST(Panel, WheelAndBarScrollIt)
   viewer.release();
   viewer.tiles();
   EXPECT_EQ(viewer.panel().scroll, 0);
+  // Wherever the thumb is taken, it does not jump.
+  viewer.wheel(panel.x + 10, 300, -2);
+  viewer.tiles();
+  const int between = viewer.panel().scroll;
+  ASSERT_TRUE(between > 0 && between < viewer.panel().most);
+  const Box now = viewer.panel().thumb;
+  EXPECT_TRUE(viewer.press(x, now.y + now.height - 2, false, false));
+  viewer.release();
+  viewer.tiles();
+  EXPECT_NEAR(viewer.panel().scroll, between, 4);
+  viewer.wheel(panel.x + 10, 300, 1000);
+  viewer.tiles();
   // Another page begins at its top, and this one stays.
   viewer.wheel(panel.x + 10, 300, -1);
   show_page(viewer, ControlPage::Light);
