@@ -1,4 +1,5 @@
 #include "Transport/fog_film.h"
+#include "thread_arena.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -7,7 +8,6 @@
 #include <tbb/blocked_range.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -118,7 +118,7 @@ bool render_fog(const Scene& scene, Film& film, int threads, const Progress& pro
   };
 
   const int workers = threads > 0 ? threads : tbb::info::default_concurrency();
-  tbb::task_arena arena(workers);
+  tbb::task_arena& arena = thread_arena(workers);
   const int tiles = (film.height + tile_rows - 1) / tile_rows;
   std::atomic<int> done{ 0 };
   std::atomic<bool> aborted{ false };

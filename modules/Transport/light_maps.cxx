@@ -1,4 +1,5 @@
 #include "Transport/light_maps.h"
+#include "thread_arena.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -6,7 +7,6 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -260,7 +260,7 @@ double LightMaps::deepest(const Scene& scene, const std::vector<VolumeTask>& vol
 void LightMaps::run(SweepTask& task, int threads) const
 {
   const int rows = task.dims[1] * (task.positional ? task.dims[2] : 1);
-  tbb::task_arena arena(threads);
+  tbb::task_arena& arena = thread_arena(threads);
   arena.execute(
     [&]
     {

@@ -6,11 +6,11 @@
 #include "Transport/path_scene.h"
 #include "Transport/path_sights.h"
 #include "Transport/step_control.h"
+#include "thread_arena.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -295,7 +295,7 @@ PathStatistics PathTracer::render(const Scene& scene,
   const auto pass = [&](const PathTargets& targets, double from, double part, bool may_be_late)
   {
     std::atomic<int> rows{ 0 };
-    tbb::task_arena arena(statistics.threads);
+    tbb::task_arena& arena = thread_arena(statistics.threads);
     arena.execute(
       [&]
       {
