@@ -95,21 +95,6 @@ std::vector<MapperKind> default_mappers(const SceneOptions& options)
     opengl_is_fast() ? MapperKind::Gpu : MapperKind::FixedPoint };
 }
 
-/// Median and 95th percentile of sorted milliseconds.
-nlohmann::ordered_json summary_of(std::vector<double> seconds)
-{
-  nlohmann::ordered_json summary;
-  summary["count"] = seconds.size();
-  if (!seconds.empty())
-  {
-    std::sort(seconds.begin(), seconds.end());
-    summary["median_ms"] = 1e3 * seconds[seconds.size() / 2];
-    summary["percentile_95_ms"] = 1e3 * seconds[seconds.size() * 95 / 100];
-    summary["largest_ms"] = 1e3 * seconds.back();
-  }
-  return summary;
-}
-
 void run(const Options& options, CLI::App& command)
 {
   const auto start = std::chrono::steady_clock::now();
@@ -178,11 +163,7 @@ void run(const Options& options, CLI::App& command)
   }
   if (!options.times.empty())
   {
-    nlohmann::ordered_json times;
-    times["first_picture_seconds"] = window.times().first_picture;
-    times["event_to_picture"] = summary_of(window.times().responses);
-    times["interruption"] = summary_of(window.times().interruptions);
-    times["refinement_without_a_look_at_input"] = summary_of(window.times().longest_deaf);
+    const nlohmann::ordered_json times = summary_of(window.times());
     write_atomically(options.times, times.dump(2) + "\n");
   }
 }

@@ -1,6 +1,7 @@
 // The window of `brume view`: VTK's, with VTK's interactor; shows what a Viewer draws.
 #pragma once
 
+#include "view_times.h"
 #include "viewer.h"
 
 #include <chrono>
@@ -14,16 +15,6 @@ class vtkRenderWindowInteractor;
 
 namespace brume::app
 {
-
-/// How long the window took to answer, in seconds.
-struct ViewTimes
-{
-  double first_picture = 0.0;      ///< from Settings::start to the first picture on it
-  std::vector<double> responses;   ///< from an event to its picture on the window, one a picture
-  std::vector<double> interruptions; ///< from asking a refinement to end to its end
-  /// Of each refinement, the longest time in which it did not look for what the user does.
-  std::vector<double> longest_deaf;
-};
 
 class ViewWindow
 {
@@ -56,8 +47,8 @@ public:
   void settle();
   /// The window as it is, as a .png file.
   void save_screenshot(const std::string& path);
-  /// Pictures of a full turn around the view's up, numbered, in a new folder below Settings::folder, and a
-  /// video where ffmpeg is there. Returns the folder. Escape ends it early.
+  /// Pictures of a full turn around the view's up, numbered, in a new folder below
+  /// Settings::folder, and a video where ffmpeg is there. Returns the folder. Escape ends it early.
   std::string record_turntable(int pictures = 90);
   /// The same of all time steps.
   std::string record_series();

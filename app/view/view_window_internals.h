@@ -1,0 +1,103 @@
+// What the parts of ViewWindow share: view_window.cxx opens the window and takes VTK's events,
+// view_window_pictures.cxx shows and refines pictures, view_window_keys.cxx has the window's own
+// keys, view_window_records.cxx writes screenshots, turntables and series.
+#pragma once
+
+#include "view_window.h"
+
+#include "cutting_tools.h"
+#include "view_style.h"
+#include "window_tiles.h"
+
+#include "Analysis/picture.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkInteractorEventRecorder.h"
+#include "vtkNew.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderWindowInteractor.h"
+#include "vtkRenderer.h"
+
+#include <chrono>
+#include <exception>
+#include <optional>
+#include <string>
+
+namespace brume::app
+{
+
+struct ViewWindow::Internals
+{
+  Internals(Viewer& viewer, const Settings& settings);
+
+  Viewer& View;
+  Settings Set;
+  vtkNew<vtkRenderWindow> Window;
+  vtkNew<vtkRenderWindowInteractor> Interactor;
+  vtkNew<ViewStyle> Style;
+  vtkNew<vtkCallbackCommand> Ear;
+  vtkNew<vtkInteractorEventRecorder> Recorder;
+  vtkNew<vtkInteractorEventRecorder> Player;
+  vtkNew<vtkRenderer> Page; ///< what no tile covers
+  WindowTiles Tiles;
+  CuttingTools Tools;
+  std::optional<std::size_t> OwnPlane; ///< which of the scene's planes is the tool's
+  ViewTimes Times;
+  UnansweredEvent Event;
+  std::chrono::steady_clock::time_point LastFlick = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point LastTold = LastFlick;
+  vtkMTimeType CameraTime = 0;
+  int Timer = -1;
+  bool Resting = false; ///< the timer's pace
+  bool Presenting = false;
+
+  /// What failed is told in the window; it goes on.
+  template <class Work>
+  void try_to(const Work& work)
+  {
+    try
+    {
+      work();
+    }
+    catch (const std::exception& error)
+    {
+      this->View.say(error.what());
+    }
+  }
+
+  // Events
+  void observe();
+  void on_event(unsigned long event, void* call);
+  void set_plane(const CuttingTools::Plane& plane);
+  void open(const std::string& path);
+  bool input_waits();
+
+  // Pictures
+  /// Something may have changed: soon there is a picture of it.
+  void want_picture();
+  void show();
+  void present();
+  void set_timer(bool resting);
+  void start_timer() { this->set_timer(false); }
+  bool flickers() const;
+  void on_timer();
+  /// One better picture, unless the program is interrupted, or, with `heed`, the user does
+  /// something. Whether there was one.
+  bool refine_once(bool heed = true);
+  /// Refines all, whatever the user does but Ctrl-C.
+  void settle();
+
+  // Keys
+  void key(const std::string& symbol, bool control);
+
+  // Records
+  void save_screenshot(const std::string& path);
+  /// Whether Escape waits: other input during a recording does nothing.
+  bool escape_waits();
+  /// The pictures alone, without captions and panel.
+  Bitmap pictures();
+  std::string turntable(int pictures);
+  std::string series();
+};
+
+}
