@@ -19,9 +19,9 @@ namespace
 /// Rows that one thread does at once.
 constexpr int band = 16;
 
-/// How many times the paths of a pixel one pass may multiply, where pixels have their own number: what
-/// they are by is an estimate that the pass betters. Their numbers differ by whole steps of a part of
-/// what they have, so that many go together in packets.
+/// How many times the paths of a pixel one pass may multiply, where pixels have their own number:
+/// what they are by is an estimate that the pass betters. Their numbers differ by whole steps of a
+/// part of what they have, so that many go together in packets.
 constexpr double most_growth = 3.0;
 constexpr int parts_of_growth = 8;
 
@@ -54,8 +54,10 @@ void PathNoise::in_bands(const std::function<void(int, int)>& work) const
   this->Ended = ended;
 }
 
-PathNoise::PathNoise(
-  const PathSums& paths, const Film& behind, int threads, std::function<bool()> go)
+PathNoise::PathNoise(const PathSums& paths,
+  const Film& behind,
+  int threads,
+  std::function<bool()> go)
   : Paths(paths)
   , Behind(behind)
   , Threads(threads)
@@ -110,9 +112,10 @@ const std::vector<double>& PathNoise::variances() const
               }
             }
             const std::size_t here = 3 * (static_cast<std::size_t>(y) * width + x) + c;
-            this->Variances[here] = std::isnan(own[here])
-              ? own[here]
-              : std::max({ own[here], around / count, this->unfound_variance(x, y, c) });
+            this->Variances[here] =
+              std::isnan(own[here])
+                ? own[here]
+                : std::max({ own[here], around / count, this->unfound_variance(x, y, c) });
           }
         }
       }
@@ -120,8 +123,8 @@ const std::vector<double>& PathNoise::variances() const
   return this->Variances;
 }
 
-/// At least this much, where all of a pixel's paths are black. What its ray meets does not dim: nothing is
-/// there that light could be found in.
+/// At least this much, where all of a pixel's paths are black. What its ray meets does not dim:
+/// nothing is there that light could be found in.
 double PathNoise::unfound_variance(int x, int y, int channel) const
 {
   const std::size_t pixel = static_cast<std::size_t>(y) * this->Behind.width + x;
@@ -196,9 +199,8 @@ void PathNoise::show(Film& film) const
           for (int c = 0; c < 3; ++c)
           {
             film.radiance[c][pixel] = static_cast<float>(this->Paths.sums[3 * pixel + c] / n);
-            largest = std::max({ largest,
-              this->Paths.variance(pixel, c) / n,
-              this->unfound_variance(x, y, c) / n });
+            largest = std::max(
+              { largest, this->Paths.variance(pixel, c) / n, this->unfound_variance(x, y, c) / n });
           }
           film.error[pixel] = static_cast<float>(3.0 * std::sqrt(largest));
         }
