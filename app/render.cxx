@@ -266,12 +266,7 @@ void run(const Options& options)
   {
     refuse_beyond_stock_mappers(options.scene, "take --mapper raymarch, or leave it out");
   }
-  if (options.scene.input.empty() &&
-    (options.scene.meshes.empty() || !options.scene.medium.has_fog()))
-  {
-    throw Failure("INPUT", "it is missing",
-      "name a volume; only surfaces in fog (--mesh, --fog-extinction) need none", BadCall);
-  }
+  refuse_empty(options.scene);
   if (!options.scene.preset.empty())
   {
     find_preset(options.scene.preset);

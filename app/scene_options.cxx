@@ -295,6 +295,15 @@ void check(const SceneOptions& options)
   }
 }
 
+void refuse_empty(const SceneOptions& options)
+{
+  if (options.input.empty() && (options.meshes.empty() || !options.medium.has_fog()))
+  {
+    throw Failure("INPUT", "it is missing",
+      "name a volume; only surfaces in fog (--mesh, --fog-extinction) need none", BadCall);
+  }
+}
+
 void refuse_beyond_stock_mappers(const SceneOptions& options, const std::string& remedy)
 {
   if (options.density())

@@ -88,6 +88,9 @@ void add_scene_options(CLI::App& command, SceneOptions& options, const std::stri
 /// What single options cannot tell: throws Failure (BadCall) for those that do not fit together.
 void check(const SceneOptions& options);
 
+/// Throws Failure (BadCall) where there is nothing to draw: no INPUT, and no surfaces in fog either.
+void refuse_empty(const SceneOptions& options);
+
 /// Throws Failure (BadCall) with this remedy where the scene has what VTK's own mappers do not draw:
 /// a density, light in a medium, fog, surfaces, forced effects.
 void refuse_beyond_stock_mappers(const SceneOptions& options, const std::string& remedy);

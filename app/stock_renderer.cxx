@@ -156,6 +156,9 @@ StockRenderer::StockRenderer(const VolumeScene& scene, MapperKind kind, double s
   std::copy(scene.options.background.begin(), scene.options.background.end(), background);
   in.Renderer->SetBackground(background);
   in.Renderer->SetActiveCamera(scene.camera);
+  // VTK 9.1 computes the aspect, by which the CPU mapper draws, only where the size is another than the
+  // last, which a new renderer has from whatever was in its memory before: often one like it.
+  in.Renderer->SetAspect(double(scene.width()) / scene.height(), 1.0);
   in.Renderer->AutomaticLightCreationOff();
   in.Renderer->SetLightCollection(scene.lights);
   for (vtkPolyData* mesh : scene.meshes)

@@ -87,7 +87,7 @@ std::vector<MapperKind> default_mappers(const SceneOptions& options)
   const Triple& e = options.extinction;
   const bool sparse = options.input.size() > 4 &&
     options.input.compare(options.input.size() - 4, 4, ".vdb") == 0;
-  if (sparse || e[0] != e[1] || e[0] != e[2])
+  if (options.input.empty() || sparse || e[0] != e[1] || e[0] != e[2])
   {
     return { MapperKind::RayMarch };
   }
@@ -99,10 +99,7 @@ void run(const Options& options, CLI::App& command)
 {
   const auto start = std::chrono::steady_clock::now();
   const bool alone = !options.screenshot.empty() || !options.play.empty(); // nobody needs to look
-  if (options.scene.input.empty())
-  {
-    throw Failure("INPUT", "it is missing", "name a volume, or a scene file with one (--scene)", BadCall);
-  }
+  refuse_empty(options.scene);
   check(options.scene);
   const std::vector<MapperKind> named =
     options.mappers.empty() ? std::vector<MapperKind>{} : mappers_of(options.mappers);
@@ -139,7 +136,8 @@ void run(const Options& options, CLI::App& command)
   ViewWindow::Settings place;
   place.width = options.window[0];
   place.height = options.window[1];
-  place.title = viewer.volume_scene().input.name + " - Brume";
+  const std::string& name = viewer.volume_scene().input.name;
+  place.title = (name.empty() ? "" : name + " - ") + "Brume";
   place.folder = options.folder;
   place.start = start;
   ViewWindow window(viewer, place);

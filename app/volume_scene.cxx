@@ -555,8 +555,22 @@ void set_up(const VolumeScene& scene, vtkBrumeSmartVolumeMapper* mapper)
 std::array<double, 6> VolumeScene::bounds() const
 {
   std::array<double, 6> bounds;
-  this->input.sparse ? this->input.sparse->GetBounds(bounds.data())
-                     : this->input.image->GetBounds(bounds.data());
+  if (this->input.sparse)
+  {
+    this->input.sparse->GetBounds(bounds.data());
+    return bounds;
+  }
+  if (this->input.image)
+  {
+    this->input.image->GetBounds(bounds.data());
+    return bounds;
+  }
+  vtkBoundingBox box;
+  for (vtkPolyData* mesh : this->meshes)
+  {
+    box.AddBounds(mesh->GetBounds());
+  }
+  box.GetBounds(bounds.data());
   return bounds;
 }
 

@@ -46,7 +46,7 @@ struct VolumeScene
   double voxel_edge = 1.0;            ///< the smallest edge of a voxel, world units
   double opacity_unit_distance = 1.0; ///< world units
 
-  std::array<double, 6> bounds() const; ///< of the input: x0, x1, y0, y1, z0, z1
+  std::array<double, 6> bounds() const; ///< of the input, or the meshes without one: x0, x1, y0, y1, z0, z1
   int width() const { return this->options.resolution[0]; }
   int height() const { return this->options.resolution[1]; }
 };

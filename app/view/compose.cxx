@@ -87,8 +87,10 @@ Bitmap wiped(const Bitmap& left, const Bitmap& right, int divider)
   return both;
 }
 
-Bitmap page_of(
-  const std::vector<std::string>& paragraphs, int width, int height, const Metrics& metrics)
+Bitmap page_of(const std::vector<std::string>& paragraphs,
+  int width,
+  int height,
+  const Metrics& metrics)
 {
   Canvas canvas(width, height, palette::page);
   const int inner = std::max(width - 4 * metrics.margin, 1);
@@ -109,43 +111,79 @@ Bitmap page_of(
   return canvas.bitmap();
 }
 
-Bitmap table_of(const std::vector<std::pair<std::string, std::string>>& rows, int width, int height,
-  const Metrics& metrics)
+namespace
 {
-  Canvas canvas(width, height, palette::page);
-  int first = 0;
+
+using Rows = std::vector<std::pair<std::string, std::string>>;
+
+/// Lettering and columns of a table.
+struct TableShape
+{
+  Metrics metrics;
+  int columns = 1;
+  int each = 1;  ///< rows of a column
+  int first = 0; ///< width of the left part
+  int width = 0; ///< that a column takes where nothing is cut
+};
+
+/// As many columns as the height takes with this lettering.
+TableShape shape_of(const Rows& rows, int height, const Metrics& metrics)
+{
+  TableShape shape{ metrics };
   int second = 0;
   for (const auto& [name, meaning] : rows)
   {
-    first = std::max(first, text_width(name, text_style(metrics)));
+    shape.first =
+      std::max(shape.first, text_width(name, text_style(metrics, palette::accent, true)));
     second = std::max(second, text_width(meaning, text_style(metrics)));
   }
-  first += 2 * metrics.margin;
-  // As many columns as it takes, if there is room for them.
-  const int least = first + std::min(second, 13 * metrics.text) + 2 * metrics.margin;
-  const int per_column = std::max((height - 2 * metrics.margin) / metrics.line, 1);
-  const int needed = (static_cast<int>(rows.size()) + per_column - 1) / per_column;
-  const int columns = std::clamp(needed, 1, std::max(width / std::max(least, 1), 1));
-  const int wide = width / columns;
-  const int each = (static_cast<int>(rows.size()) + columns - 1) / columns;
-  for (std::size_t i = 0; i < rows.size(); ++i)
+  shape.first += 2 * metrics.margin;
+  shape.width = shape.first + second + 3 * metrics.margin;
+  const int count = std::max(static_cast<int>(rows.size()), 1);
+  const int room = std::max((height - 2 * metrics.margin) / metrics.line, 1);
+  shape.columns = (count + room - 1) / room;
+  shape.each = (count + shape.columns - 1) / shape.columns;
+  return shape;
+}
+
+/// The largest lettering up to `metrics` with which nothing is cut, or else the smallest.
+TableShape fitting_shape(const Rows& rows, int width, int height, const Metrics& metrics)
+{
+  TableShape shape = shape_of(rows, height, metrics);
+  for (double scale = metrics.text / 13.0;
+       shape.columns * shape.width > width && shape.metrics.text > 8;)
   {
-    const int x = static_cast<int>(i) / each * wide + metrics.margin;
-    const int y = metrics.margin + metrics.text + static_cast<int>(i) % each * metrics.line;
-    if (y > height)
-    {
-      continue;
-    }
-    canvas.text(x, y, rows[i].first, text_style(metrics, palette::accent, true));
-    const int room = wide - first - 2 * metrics.margin;
-    canvas.text(x + first, y, fitted(rows[i].second, text_style(metrics), std::max(room, 0)),
-      text_style(metrics));
+    scale = std::max(scale - 1.0 / 13.0, 0.5);
+    shape = shape_of(rows, height, Metrics(scale));
+  }
+  return shape;
+}
+
+}
+
+Bitmap table_of(const Rows& rows, int width, int height, const Metrics& metrics)
+{
+  Canvas canvas(width, height, palette::page);
+  const TableShape shape = fitting_shape(rows, width, height, metrics);
+  const Metrics& m = shape.metrics;
+  const int wide = width / shape.columns;
+  const int room = std::max(wide - shape.first - 2 * m.margin, 0);
+  for (int i = 0; i < static_cast<int>(rows.size()); ++i)
+  {
+    const auto& [name, meaning] = rows[static_cast<std::size_t>(i)];
+    const int x = i / shape.each * wide + m.margin;
+    const int y = m.margin + m.text + i % shape.each * m.line;
+    canvas.text(x, y, name, text_style(m, palette::accent, true));
+    canvas.text(x + shape.first, y, fitted(meaning, text_style(m), room), text_style(m));
   }
   return canvas.bitmap();
 }
 
-Bitmap caption_of(
-  const std::string& left, const std::string& right, int width, int height, const Metrics& metrics)
+Bitmap caption_of(const std::string& left,
+  const std::string& right,
+  int width,
+  int height,
+  const Metrics& metrics)
 {
   Canvas canvas(width, height, palette::page);
   const int baseline = (height + metrics.text) / 2 - metrics.text / 8;

@@ -21,7 +21,8 @@ Bitmap wiped(const Bitmap& left, const Bitmap& right, int divider);
 /// Lines of text in a box of this size, broken between words and cut off where they do not fit.
 Bitmap page_of(const std::vector<std::string>& paragraphs, int width, int height, const Metrics& metrics);
 
-/// Two columns of text, as help is: keys and what they do.
+/// Two columns of text, as help is: keys and what they do. Where it does not fit the lettering is smaller,
+/// down to 8 pixels, and then what is too long is cut.
 Bitmap table_of(const std::vector<std::pair<std::string, std::string>>& rows, int width, int height,
   const Metrics& metrics);
 

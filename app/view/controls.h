@@ -3,9 +3,11 @@
 #pragma once
 
 #include "scene_options.h"
+#include "tint.h"
 
 #include <nlohmann/json.hpp>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,7 +27,11 @@ struct ControlScene
 {
   const SceneOptions* options = nullptr;
   double exposure = 0.0;              ///< stops
-  double size = 1.0;                  ///< longest edge of the volume, world units
+  bool volume = true;                 ///< whether it has one; else surfaces stand in fog alone
+  bool temperatures = false;          ///< whether the input has the array of temperatures
+  double size = 1.0;                  ///< longest edge of all that is drawn, world units
+  double low = 0.0;                   ///< of all that is drawn, along `up`
+  double high = 1.0;
   double opacity_unit_distance = 1.0; ///< world units, as it is drawn
   SunAngles first_sun;                ///< of a scene that has none yet
 };
@@ -45,25 +51,32 @@ enum class ControlScale
   Whole, ///< whole numbers
 };
 
-/// A number that can be dragged, or turned by keys.
+/// A number that can be dragged, or turned by keys. Of a colour it is the largest channel.
 struct Control
 {
   const char* name; ///< for people, and as --play files and tests know it
-  const char* key;  ///< of the scene file
-  const char* unit; ///< "" for none
+  std::vector<std::string> keys; ///< of the scene file, that it sets or takes out
+  /// "per unit length" and "length" of the data's unit; "emitted": the former for a density; "" for none.
+  const char* unit;
   ControlPage page;
   ControlScale scale;
-  const char* less; ///< keys (X's names) that turn it down and up a fortieth of its range; "": none
-  const char* more;
   /// The ends of its range.
-  double (*lower)(const ControlScene&);
-  double (*upper)(const ControlScene&);
-  /// The value as it is drawn; empty where the scene has none, or it means nothing there.
-  std::optional<double> (*get)(const ControlScene&);
+  std::function<double(const ControlScene&)> lower;
+  std::function<double(const ControlScene&)> upper;
+  /// The value as it is drawn; empty where the scene has none.
+  std::function<std::optional<double>(const ControlScene&)> get;
   /// Sets it in the scene's keys, and takes out what it excludes.
-  void (*set)(nlohmann::ordered_json& scene, const ControlScene&, double value);
-  /// Why it means nothing in this scene; empty where it does.
-  std::string (*inapplicable)(const ControlScene&);
+  std::function<void(nlohmann::ordered_json& scene, const ControlScene&, double value)> set;
+  /// Why it means nothing in this scene, and is not shown; empty where it does.
+  std::function<std::string(const ControlScene&)> inapplicable;
+  const char* less = ""; ///< keys (X's names) that turn it down and up a fortieth of its range; "": none
+  const char* more = "";
+  /// The colour, linear, and what sets it; of what is no colour both are empty.
+  ///@{
+  std::function<Triple(const ControlScene&)> colour = {};
+  std::function<void(nlohmann::ordered_json& scene, const ControlScene&, const Triple&)> set_colour = {};
+  ///@}
+  double first = 0.25; ///< place on its bar of a colour that the scene does not have yet
 };
 
 /// All of them, in the order in which they are shown.
@@ -73,6 +86,13 @@ const std::vector<Control>& controls();
 /// ends.
 double place_of(const Control& control, const ControlScene& scene, double value);
 double value_at(const Control& control, const ControlScene& scene, double place);
+
+/// The colour of a control that has one, with another hue and saturation; what the scene does not have gets a
+/// brightness of its own.
+Triple tinted(const Control& control, const ControlScene& scene, double hue, double saturation);
+
+/// The phase function's lobes, whichever key says them; one at least.
+std::vector<LobeChoice> lobes_of(const MediumOptions& medium);
 
 /// The scene's sun; empty where there is none.
 std::optional<SunAngles> sun_angles(const MediumOptions& medium);

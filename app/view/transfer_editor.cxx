@@ -48,14 +48,17 @@ ColourPoint colour_at(const TransferFunction& function, double value)
   const ColourPoint& a = *(next - 1);
   const ColourPoint& b = *next;
   const double t = (value - a.value) / (b.value - a.value);
-  return { value, a.red + t * (b.red - a.red), a.green + t * (b.green - a.green),
+  return { value,
+    a.red + t * (b.red - a.red),
+    a.green + t * (b.green - a.green),
     a.blue + t * (b.blue - a.blue) };
 }
 
 int CurveField::x_of(double value) const
 {
   const double t = (value - this->lower) / (this->upper - this->lower);
-  return this->box.x + static_cast<int>(std::lround(std::clamp(t, 0.0, 1.0) * (this->box.width - 1)));
+  return this->box.x +
+         static_cast<int>(std::lround(std::clamp(t, 0.0, 1.0) * (this->box.width - 1)));
 }
 
 int CurveField::y_of(double opacity) const
@@ -93,42 +96,95 @@ int point_at(const TransferFunction& function, const CurveField& field, int x, i
   return nearest;
 }
 
-int add_point(TransferFunction& function, double value, double opacity)
+int colour_point_at(const TransferFunction& function, const CurveField& field, int x, int reach)
 {
-  std::vector<OpacityPoint>& points = function.opacity;
-  const auto next = std::find_if(
-    points.begin(), points.end(), [&](const OpacityPoint& p) { return p.value >= value; });
-  const int index = static_cast<int>(next - points.begin());
-  if (next != points.end() && next->value == value)
+  int nearest = -1;
+  int least = reach + 1;
+  for (std::size_t i = 0; i < function.colour.size(); ++i)
   {
-    next->opacity = opacity;
+    const int off = std::abs(field.x_of(function.colour[i].value) - x);
+    if (off < least)
+    {
+      least = off;
+      nearest = static_cast<int>(i);
+    }
+  }
+  return nearest;
+}
+
+namespace
+{
+
+/// In the order of values; takes the place of a point of the same value.
+template <class Point>
+int insert(std::vector<Point>& points, const Point& point)
+{
+  const auto next = std::find_if(
+    points.begin(), points.end(), [&](const Point& p) { return p.value >= point.value; });
+  const int index = static_cast<int>(next - points.begin());
+  if (next != points.end() && next->value == point.value)
+  {
+    *next = point;
     return index;
   }
-  points.insert(next, { value, opacity });
+  points.insert(next, point);
   return index;
+}
+
+/// Values must rise; a thousandth of the way to a neighbour stays between them.
+template <class Point>
+void move(std::vector<Point>& points, std::size_t i, double value)
+{
+  const double low = i > 0 ? points[i - 1].value : -1e300;
+  const double high = i + 1 < points.size() ? points[i + 1].value : 1e300;
+  const double room = i > 0 && i + 1 < points.size() ? 1e-3 * (high - low)
+                      : i > 0                        ? 1e-6 * (1.0 + std::abs(low))
+                      : i + 1 < points.size()        ? 1e-6 * (1.0 + std::abs(high))
+                                                     : 0.0;
+  points[i].value = std::clamp(value, low + room, high - room);
+}
+
+template <class Point>
+void remove(std::vector<Point>& points, int index)
+{
+  if (points.size() > 1)
+  {
+    points.erase(points.begin() + index);
+  }
+}
+
+}
+
+int add_point(TransferFunction& function, double value, double opacity)
+{
+  return insert(function.opacity, OpacityPoint{ value, opacity });
+}
+
+int add_colour_point(TransferFunction& function, double value)
+{
+  return insert(function.colour, colour_at(function, value));
 }
 
 void move_point(TransferFunction& function, int index, double value, double opacity)
 {
-  std::vector<OpacityPoint>& points = function.opacity;
   const std::size_t i = static_cast<std::size_t>(index);
-  // Values must rise; a thousandth of the way to a neighbour stays between them.
-  const double low = i > 0 ? points[i - 1].value : -1e300;
-  const double high = i + 1 < points.size() ? points[i + 1].value : 1e300;
-  const double room = i > 0 && i + 1 < points.size() ? 1e-3 * (high - low)
-    : i > 0                                          ? 1e-6 * (1.0 + std::abs(low))
-    : i + 1 < points.size()                          ? 1e-6 * (1.0 + std::abs(high))
-                                                     : 0.0;
-  points[i].value = std::clamp(value, low + room, high - room);
-  points[i].opacity = std::clamp(opacity, 0.0, 1.0);
+  move(function.opacity, i, value);
+  function.opacity[i].opacity = std::clamp(opacity, 0.0, 1.0);
+}
+
+void move_colour_point(TransferFunction& function, int index, double value)
+{
+  move(function.colour, static_cast<std::size_t>(index), value);
 }
 
 void remove_point(TransferFunction& function, int index)
 {
-  if (function.opacity.size() > 1)
-  {
-    function.opacity.erase(function.opacity.begin() + index);
-  }
+  remove(function.opacity, index);
+}
+
+void remove_colour_point(TransferFunction& function, int index)
+{
+  remove(function.colour, index);
 }
 
 }

@@ -48,16 +48,44 @@ struct CurveField
   double opacity_of(int y) const;
 };
 
-/// The point within `reach` pixels of a place; −1 for none.
+/// A point of the function, of which kind.
+struct FunctionPoint
+{
+  enum class Kind
+  {
+    None,
+    Opacity,
+    Colour,
+  };
+  Kind kind = Kind::None;
+  int index = -1;
+
+  bool is(Kind k, int i) const { return this->kind == k && this->index == i; }
+  bool operator==(const FunctionPoint& other) const { return other.is(this->kind, this->index); }
+};
+
+/// The point of opacity within `reach` pixels of a place; −1 for none.
 int point_at(const TransferFunction& function, const CurveField& field, int x, int y, int reach);
 
-/// A new point there, and its index.
+/// The point of colour within `reach` pixels of a column; −1 for none.
+int colour_point_at(const TransferFunction& function, const CurveField& field, int x, int reach);
+
+/// A new point there, and its index. Of colours one of the colour that is there.
+///@{
 int add_point(TransferFunction& function, double value, double opacity);
+int add_colour_point(TransferFunction& function, double value);
+///@}
 
 /// Moves a point, no further than between its neighbours.
+///@{
 void move_point(TransferFunction& function, int index, double value, double opacity);
+void move_colour_point(TransferFunction& function, int index, double value);
+///@}
 
 /// Takes a point out, but never the last.
+///@{
 void remove_point(TransferFunction& function, int index);
+void remove_colour_point(TransferFunction& function, int index);
+///@}
 
 }

@@ -36,6 +36,12 @@ bool ViewStyle::TakesRelease()
   return this->Release && this->Release();
 }
 
+bool ViewStyle::TakesWheel(int steps)
+{
+  const Place place = place_of(this->Interactor);
+  return this->Wheel && this->Wheel(place.x, place.y, steps);
+}
+
 void ViewStyle::OnLeftButtonDown()
 {
   if (!this->TakesPress(false))
@@ -84,6 +90,24 @@ void ViewStyle::OnMouseMove()
   if (!this->Drag || !this->Drag(place.x, place.y))
   {
     this->Superclass::OnMouseMove();
+  }
+  this->Done();
+}
+
+void ViewStyle::OnMouseWheelForward()
+{
+  if (!this->TakesWheel(1))
+  {
+    this->Superclass::OnMouseWheelForward();
+  }
+  this->Done();
+}
+
+void ViewStyle::OnMouseWheelBackward()
+{
+  if (!this->TakesWheel(-1))
+  {
+    this->Superclass::OnMouseWheelBackward();
   }
   this->Done();
 }

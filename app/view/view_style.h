@@ -21,6 +21,7 @@ public:
   std::function<bool(int x, int y, bool right_button, bool twice)> Press;
   std::function<bool(int x, int y)> Drag;
   std::function<bool()> Release;
+  std::function<bool(int x, int y, int steps)> Wheel; ///< steps away from the hand above 0
   /// A key by X's name, with whether Control is held.
   std::function<void(const std::string& symbol, bool control)> Key;
   /// After any event that the camera or one of these took.
@@ -32,6 +33,8 @@ public:
   void OnRightButtonDown() override;
   void OnRightButtonUp() override;
   void OnMouseMove() override;
+  void OnMouseWheelForward() override;
+  void OnMouseWheelBackward() override;
   void OnKeyPress() override;
   void OnChar() override {}  // VTK's own keys are other things here
   void OnTimer() override {} // the window's timer is not the camera's
@@ -43,6 +46,7 @@ protected:
 private:
   bool TakesPress(bool right_button);
   bool TakesRelease();
+  bool TakesWheel(int steps);
 };
 
 }

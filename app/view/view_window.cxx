@@ -3,6 +3,7 @@
 #include "x_input.h"
 
 #include "Analysis/canvas.h"
+#include "command.h"
 #include "scene_file.h"
 
 #include "vtkCamera.h"
@@ -28,21 +29,27 @@ bool ViewWindow::Internals::input_waits()
 
 void ViewWindow::Internals::observe()
 {
-  this->Ear->SetClientData(this);
-  this->Ear->SetCallback(
-    [](vtkObject*, unsigned long event, void* data, void* call)
-    {
-      auto* self = static_cast<Internals*>(data);
-      self->try_to([&] { self->on_event(event, call); });
-    });
+  for (vtkCallbackCommand* ear : { this->Ear.Get(), this->DropEar.Get() })
+  {
+    ear->SetClientData(this);
+    ear->SetCallback(
+      [](vtkObject*, unsigned long event, void* data, void* call)
+      {
+        auto* self = static_cast<Internals*>(data);
+        self->try_to([&] { self->on_event(event, call); });
+      });
+  }
+  // While the mouse turns the camera or drags a tool VTK tells none but passive observers; these must
+  // leave the interactor's observers alone, and other volumes hide the tools.
+  this->Ear->SetPassiveObserver(1);
   for (const unsigned long event : { vtkCommand::RenderEvent,
          vtkCommand::TimerEvent,
          vtkCommand::ConfigureEvent,
-         vtkCommand::DropFilesEvent,
          vtkCommand::ExposeEvent })
   {
     this->Interactor->AddObserver(event, this->Ear);
   }
+  this->Interactor->AddObserver(vtkCommand::DropFilesEvent, this->DropEar);
   const auto taken = [this](auto&& work)
   {
     bool takes = true;
@@ -54,6 +61,8 @@ void ViewWindow::Internals::observe()
   this->Style->Drag = [this, taken](int x, int y)
   { return taken([&] { return this->View.drag(x, y); }); };
   this->Style->Release = [this, taken] { return taken([&] { return this->View.release(); }); };
+  this->Style->Wheel = [this, taken](int x, int y, int steps)
+  { return taken([&] { return this->View.wheel(x, y, steps); }); };
   this->Style->Key = [this](const std::string& symbol, bool control)
   { this->try_to([&] { this->key(symbol, control); }); };
   this->Style->Done = [this] { this->try_to([&] { this->want_picture(); }); };
@@ -119,11 +128,12 @@ void ViewWindow::Internals::open(const std::string& path)
   this->try_to(
     [&]
     {
-      this->Tools.hide(); // they are around the former volume
-      this->OwnPlane.reset();
-      const bool scene = std::filesystem::path(path).extension() == ".json";
+      if (path.empty())
+      {
+        throw Failure("what was dropped", "it is no file", "drop a volume or a scene file");
+      }
       nlohmann::ordered_json next;
-      if (scene)
+      if (std::filesystem::path(path).extension() == ".json")
       {
         next = read_scene(path);
       }
@@ -132,6 +142,8 @@ void ViewWindow::Internals::open(const std::string& path)
         next["input"] = std::filesystem::absolute(path).string();
       }
       this->View.open(next);
+      this->Tools.hide(); // they are around the former volume
+      this->OwnPlane.reset();
       this->View.say("opened " + std::filesystem::path(path).filename().string());
     });
 }
@@ -166,6 +178,7 @@ ViewWindow::~ViewWindow()
 {
   Internals& in = *this->Internal;
   in.Interactor->RemoveObserver(in.Ear);
+  in.Interactor->RemoveObserver(in.DropEar);
   in.Recorder->SetInteractor(nullptr);
   in.Player->SetInteractor(nullptr);
   in.Tools.hide();

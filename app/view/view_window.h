@@ -5,6 +5,8 @@
 #include "viewer.h"
 
 #include <chrono>
+#include <exception>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -26,6 +28,8 @@ public:
     std::string title = "Brume";
     std::string folder = "."; ///< where pictures and scenes are saved
     std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+    /// Told of each failure that the window tells its user.
+    std::function<void(const std::exception&)> failed;
   };
 
   /// Keys that the window takes itself, for people, and what they do.

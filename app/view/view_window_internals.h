@@ -36,6 +36,7 @@ struct ViewWindow::Internals
   vtkNew<vtkRenderWindowInteractor> Interactor;
   vtkNew<ViewStyle> Style;
   vtkNew<vtkCallbackCommand> Ear;
+  vtkNew<vtkCallbackCommand> DropEar;
   vtkNew<vtkInteractorEventRecorder> Recorder;
   vtkNew<vtkInteractorEventRecorder> Player;
   vtkNew<vtkRenderer> Page; ///< what no tile covers
@@ -46,6 +47,7 @@ struct ViewWindow::Internals
   UnansweredEvent Event;
   std::chrono::steady_clock::time_point LastFlick = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point LastTold = LastFlick;
+  std::chrono::steady_clock::time_point LastAnswer = LastFlick;
   vtkMTimeType CameraTime = 0;
   int Timer = -1;
   bool Resting = false; ///< the timer's pace
@@ -62,6 +64,10 @@ struct ViewWindow::Internals
     catch (const std::exception& error)
     {
       this->View.say(error.what());
+      if (this->Set.failed)
+      {
+        this->Set.failed(error);
+      }
     }
   }
 
@@ -92,8 +98,8 @@ struct ViewWindow::Internals
 
   // Records
   void save_screenshot(const std::string& path);
-  /// Whether Escape waits: other input during a recording does nothing.
-  bool escape_waits();
+  /// Whether Escape was pressed: it ends a recording, and not the window, too.
+  bool take_escape();
   /// The pictures alone, without captions and panel.
   Bitmap pictures();
   std::string turntable(int pictures);

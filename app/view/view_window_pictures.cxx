@@ -20,6 +20,8 @@ constexpr double told_every = 0.25; ///< seconds between figures of progress, fo
 constexpr double look_every = 2e-3; ///< seconds between looks for input, which cost some microseconds each
 /// While events come faster than pictures, a picture is due after so many seconds all the same.
 constexpr double longest_wait = 0.05;
+/// A hand that turns the camera rests when it has done nothing for so many seconds.
+constexpr double still_seconds = 0.1;
 
 }
 
@@ -51,6 +53,7 @@ void ViewWindow::Internals::show()
   if (this->Event.waits() && drew)
   {
     this->Times.responses.push_back(this->Event.age());
+    this->LastAnswer = Clock::now();
   }
   this->Event.answered();
 }
@@ -67,7 +70,11 @@ void ViewWindow::Internals::present()
     bool& flag;
     ~Guard() { flag = false; }
   } const guard{ this->Presenting };
-  this->Tiles.take(this->View.tiles(), this->View.camera());
+  // Until other mappers have a picture the window keeps the one before.
+  if (this->View.has_pictures() || !this->View.stale())
+  {
+    this->Tiles.take(this->View.tiles(), this->View.camera());
+  }
   this->Window->Render();
   if (this->Times.first_picture == 0.0 && this->View.has_pictures())
   {
@@ -114,7 +121,10 @@ void ViewWindow::Internals::on_timer()
   }
   if (!this->View.finished())
   {
-    this->refine_once();
+    if (this->Style->GetState() == VTKIS_NONE || seconds_since(this->LastAnswer) > still_seconds)
+    {
+      this->refine_once();
+    }
   }
   else if (!this->flickers())
   {

@@ -24,9 +24,9 @@ void ViewWindow::Internals::save_screenshot(const std::string& path)
   save_png(bitmap, path);
 }
 
-bool ViewWindow::Internals::escape_waits()
+bool ViewWindow::Internals::take_escape()
 {
-  return escape_was_pressed(this->Window->GetGenericDisplayId());
+  return brume::app::take_escape(this->Window->GetGenericDisplayId());
 }
 
 Bitmap ViewWindow::Internals::pictures()
@@ -46,7 +46,7 @@ std::string ViewWindow::Internals::turntable(int pictures)
 {
   Recording recording(this->Set.folder, "turntable");
   const KeptCamera kept(this->View.camera());
-  for (int i = 0; i < pictures && !this->escape_waits(); ++i)
+  for (int i = 0; i < pictures && !this->take_escape(); ++i)
   {
     this->View.say(
       "turntable: " + std::to_string(i) + " of " + std::to_string(pictures) + ", Escape ends it");
@@ -56,6 +56,7 @@ std::string ViewWindow::Internals::turntable(int pictures)
     this->View.camera()->OrthogonalizeViewUp();
     this->View.camera_moved();
   }
+  this->take_escape(); // it came too late, and is not to close the window
   return recording.finish();
 }
 
@@ -68,7 +69,7 @@ std::string ViewWindow::Internals::series()
   }
   const int before = this->View.volume_scene().input.time_step;
   Recording recording(this->Set.folder, "series");
-  for (int i = 0; i < count && !this->escape_waits(); ++i)
+  for (int i = 0; i < count && !this->take_escape(); ++i)
   {
     this->View.go_to_time(i);
     this->View.say(
@@ -77,6 +78,7 @@ std::string ViewWindow::Internals::series()
     recording.add(this->pictures());
   }
   this->View.go_to_time(before);
+  this->take_escape(); // it came too late, and is not to close the window
   return recording.finish();
 }
 

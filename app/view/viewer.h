@@ -54,6 +54,7 @@ public:
     std::array<int, 2> window{ 1280, 760 }; ///< pixels; what the camera is first fitted to
     double scale = 1.0;          ///< of lettering and panel
     bool panel = true;
+    bool times = true; ///< whether captions and the plan tell how long pictures took
     /// Keys of who shows it, for the page of help.
     std::vector<std::pair<std::string, std::string>> more_keys;
     double draft_seconds = 0.04; ///< that pictures of all viewports take together while something moves
@@ -85,8 +86,10 @@ public:
   // Events, in pixels from the window's upper left corner.
   /// Whether the panel or a divider takes the mouse there; else it is the camera's.
   bool press(int x, int y, bool right_button, bool twice);
-  bool drag(int x, int y);
+  bool drag(int x, int y); ///< also moves without a button: what is under the mouse is told
   bool release();
+  /// So many steps of the wheel, away from the hand above 0.
+  bool wheel(int x, int y, int steps);
   /// By the name that X has for the key ("Left", "question"). Whether it means something.
   bool key(const std::string& symbol);
   /// All keys that key() knows, for people, and what they do.
@@ -116,9 +119,13 @@ public:
   bool finished() const;
   /// Of the viewport, in the order of Settings::mappers.
   const Shot& shot(int viewport) const;
+  /// Why that viewport has no picture; empty where it has one, or none yet.
+  const std::string& failure(int viewport) const;
 
   /// All rectangles of the window; they do not overlap.
   const std::vector<Tile>& tiles();
+  /// The panel among them, with what can be pressed.
+  const DrawnPanel& panel() const { return this->Panel; }
   /// One line: what was done, or went wrong. Stays until the next change of the scene.
   void say(const std::string& hint);
   /// What is under way, in place of that line while it is not empty.
@@ -138,6 +145,7 @@ private:
 
   void set(nlohmann::ordered_json scene);
   void take(const nlohmann::ordered_json& scene);
+  void read_function();
   void open_keeping(const nlohmann::ordered_json& scene);
   std::string line() const;
   void make_panes();
@@ -150,7 +158,18 @@ private:
   void turn_sun(int x, int y);
   void turn(const Control& control, double place);
   void nudge(const Control& control, double by);
+  void restore(const Control& control);
+  void tint(int index, double hue, double saturation);
+  Triple chosen_colour() const;
+  void set_chosen_colour(const Triple& colour);
   void set_function(const TransferFunction& function);
+  void choose_point(int index);
+  FunctionPoint point_under(int x, int y);
+  void show_picker(const HotSpot& swatch);
+  void press_curve(const HotSpot& spot, int x, bool right_button, bool twice, int y);
+  void press_colours(const HotSpot& spot, int x, bool right_button, bool twice);
+  void drag_control(int x);
+  bool drag_point(int x, int y);
   void step_preset(int by);
   void switch_effect(const std::string& name);
   void switch_light();
@@ -182,8 +201,12 @@ private:
   std::vector<Tile> Tiles;
   DrawnPanel Panel;
   ControlPage Page = ControlPage::Light;
+  std::array<int, 4> Scrolls{};  ///< of the panel's pages
+  std::optional<int> Picker;     ///< as PanelModel has it
   std::optional<Histogram> Values; ///< made when it is first shown
   TransferFunction Function;
+  FunctionPoint Hand;  ///< of the function: held, or under the mouse
+  int Chosen = -1;     ///< its point of colour that can be given another
   std::vector<std::pair<std::string, std::string>> Figures;
   std::string Hint;
   std::string Progress;
@@ -202,11 +225,14 @@ private:
     Control,
     Ball,
     Point,
+    Picker,
+    Scroll,
     Divider,
   };
   Held Hold = Held::Nothing;
   HotSpot HeldSpot;
-  int HeldPoint = -1;
+  Triple HeldColour{ 1.0, 1.0, 1.0 }; ///< whose brightness is dragged: it must not be lost at 0
+  int HeldOffset = 0;                 ///< from the scroll bar's thumb to the hand
 };
 
 }

@@ -9,6 +9,8 @@
 #include "vtkTexture.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <algorithm>
+
 namespace brume::app
 {
 
@@ -36,13 +38,14 @@ struct WindowTiles::Shown
       double(size[1] - box.y - box.height) / size[1],
       double(box.x + box.width) / size[0],
       double(size[1] - box.y) / size[1]);
+    // A new renderer may take the aspect for known (stock_renderer.cxx).
+    this->renderer->SetAspect(double(box.width) / box.height, 1.0);
     this->renderer->SetInteractive(tile.picture);
     this->renderer->SetActiveCamera(camera);
     vtkNew<vtkUnsignedCharArray> bytes;
     bytes->SetNumberOfComponents(3);
-    bytes->SetArray(const_cast<unsigned char*>(tile.bitmap.rgb.data()),
-      static_cast<vtkIdType>(tile.bitmap.rgb.size()),
-      1);
+    bytes->SetNumberOfTuples(static_cast<vtkIdType>(tile.bitmap.rgb.size() / 3));
+    std::copy(tile.bitmap.rgb.begin(), tile.bitmap.rgb.end(), bytes->GetPointer(0));
     this->image->SetDimensions(tile.bitmap.width, tile.bitmap.height, 1);
     this->image->GetPointData()->SetScalars(bytes);
     this->image->Modified();

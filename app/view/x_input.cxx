@@ -30,17 +30,14 @@ int note_input(Display*, XEvent* event, XPointer found)
   return False; // none is taken
 }
 
-int note_escape(Display*, XEvent* event, XPointer found)
+int is_escape(Display*, XEvent* event, XPointer)
 {
-  if (event->type == KeyPress && XLookupKeysym(&event->xkey, 0) == XK_Escape)
-  {
-    *reinterpret_cast<bool*>(found) = true;
-  }
-  return False;
+  return event->type == KeyPress && XLookupKeysym(&event->xkey, 0) == XK_Escape;
 }
 
-/// Whether `note` found something among the events that wait.
-bool any_waits(void* display, int (*note)(Display*, XEvent*, XPointer))
+}
+
+bool input_waits(void* display)
 {
   if (!display)
   {
@@ -48,20 +45,21 @@ bool any_waits(void* display, int (*note)(Display*, XEvent*, XPointer))
   }
   bool found = false;
   XEvent event;
-  XCheckIfEvent(static_cast<Display*>(display), &event, note, reinterpret_cast<XPointer>(&found));
+  XCheckIfEvent(
+    static_cast<Display*>(display), &event, note_input, reinterpret_cast<XPointer>(&found));
   return found;
 }
 
-}
-
-bool input_waits(void* display)
+bool take_escape(void* display)
 {
-  return any_waits(display, note_input);
-}
-
-bool escape_was_pressed(void* display)
-{
-  return any_waits(display, note_escape);
+  bool found = false;
+  XEvent event;
+  while (
+    display && XCheckIfEvent(static_cast<Display*>(display), &event, is_escape, nullptr) == True)
+  {
+    found = true;
+  }
+  return found;
 }
 
 bool display_opens()

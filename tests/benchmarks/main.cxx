@@ -147,6 +147,7 @@ int main(int argc, char** argv)
   benchmarks::add_light_rows(scenes, rows);
   benchmarks::add_effect_rows(scenes, rows);
   benchmarks::add_generator_rows(scenes, rows);
+  benchmarks::add_view_rows(scenes, rows);
   if (list)
   {
     for (const Row& row : rows)

@@ -21,5 +21,7 @@ void add_effect_rows(Scenes& scenes, std::vector<Row>& rows);
 void add_memory_rows(Scenes& scenes, std::vector<Row>& rows);
 /// Noise, clouds dense and sparse.
 void add_generator_rows(Scenes& scenes, std::vector<Row>& rows);
+/// The window of `brume view`.
+void add_view_rows(Scenes& scenes, std::vector<Row>& rows);
 
 }

@@ -1,8 +1,11 @@
 // What `brume view` is without its window: layout, controls, scenes that are saved, pictures.
-#include "command.h"
+#include "view_support.h"
+
 #include "display_options.h"
-#include "scene_file.h"
-#include "volume_scene.h"
+#include "mesh_scene.h"
+#include "private_display.h"
+
+#include "vtkBrumeFog.h"
 
 #include "view/compose.h"
 #include "view/controls.h"
@@ -10,104 +13,13 @@
 #include "view/recording.h"
 #include "view/side_panel.h"
 #include "view/transfer_editor.h"
-#include "view/viewer.h"
 
 #include "display_table.h"
 
-#include "vtkBrumeRayMarchMapper.h"
-
-#include "vtkCamera.h"
-#include "vtkLightCollection.h"
-#include "vtkNew.h"
-#include "vtkPolyData.h"
-#include "vtkVolume.h"
-
 #include <CLI/CLI.hpp>
-#include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
-#include <cmath>
-#include <fstream>
 #include <limits>
 #include <random>
-
-using namespace brume::app;
-using nlohmann::ordered_json;
-
-namespace
-{
-
-bool overlap(const Box& a, const Box& b)
-{
-  return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
-}
-
-/// A ball of 24³ voxels in a file, brighter toward +x.
-std::string ball_file()
-{
-  static const std::string path = BRUME_TEST_OUTPUT "/view-ball.nrrd";
-  std::ofstream file(path, std::ios::binary);
-  file << "NRRD0004\ntype: float\ndimension: 3\nsizes: 24 24 24\nspacings: 1 1 1\n"
-          "endian: little\nencoding: raw\n\n";
-  for (int k = 0; k < 24; ++k)
-    for (int j = 0; j < 24; ++j)
-      for (int i = 0; i < 24; ++i)
-      {
-        const double r = std::hypot(i - 11.5, j - 11.5, k - 11.5);
-        const float v = r < 10.0 ? 100.0f + 5.0f * static_cast<float>(i) : 0.0f;
-        file.write(reinterpret_cast<const char*>(&v), sizeof v);
-      }
-  return path;
-}
-
-ordered_json ball_scene()
-{
-  return { { "input", ball_file() }, { "quiet", true }, { "preset", "grey" } };
-}
-
-Viewer::Settings settings_of(std::vector<MapperKind> mappers)
-{
-  Viewer::Settings settings;
-  settings.mappers = std::move(mappers);
-  return settings;
-}
-
-const KeepGoing go_on = [](double) { return true; };
-
-void finish(Viewer& viewer)
-{
-  viewer.draft(go_on);
-  while (!viewer.finished())
-  {
-    ASSERT_TRUE(viewer.refine(go_on));
-  }
-}
-
-/// The largest difference of two pictures of one size.
-double difference(const brume::Picture& a, const brume::Picture& b)
-{
-  EXPECT_EQ(a.rgb.size(), b.rgb.size());
-  double most = 0.0;
-  for (std::size_t i = 0; i < std::min(a.rgb.size(), b.rgb.size()); ++i)
-  {
-    most = std::max(most, double(std::abs(a.rgb[i] - b.rgb[i])));
-  }
-  return most;
-}
-
-/// What `brume render` draws of a scene.
-brume::Picture rendered(const ordered_json& scene)
-{
-  const ParsedScene parsed(scene);
-  const VolumeScene volume = make_volume_scene(parsed.options());
-  vtkNew<vtkBrumeRayMarchMapper> mapper;
-  set_up(volume, mapper);
-  brume::Film film(volume.width(), volume.height());
-  EXPECT_TRUE(mapper->RenderFilm(volume.volume, volume.camera, volume.lights, film));
-  return { film.width, film.height, over_background(film, volume.options.background.data()) };
-}
-
-}
 
 TEST(Layout, NothingOverlapsAndNothingIsLost)
 {
@@ -240,8 +152,15 @@ TEST(Controls, WhatIsSetIsWhatIsRead)
         then.options = &after.options();
         then.exposure = after.display().exposure;
         then.size = 100.0;
-        const std::optional<double> read =
-          control.name == std::string("tolerance") ? after.options().tolerance_choice : control.get(then);
+        std::optional<double> read = control.get(then);
+        if (control.name == std::string("tolerance"))
+        {
+          read = after.options().tolerance_choice; // settled later, as the next
+        }
+        else if (control.name == std::string("background"))
+        {
+          read = brightness_of(after.options().background_choice.value());
+        }
         ASSERT_TRUE(read) << control.name;
         EXPECT_NEAR(*read, value, 1e-9 * (1.0 + std::abs(value))) << control.name;
       }
@@ -573,6 +492,73 @@ TEST(Viewer, ASceneThatCannotBeLeavesTheOneBefore)
   ordered_json scene = ball_scene();
   scene["blend-mode"] = "mip";
   scene["sun-direction"] = { 0.0, 0.0, 1.0 };
+  EXPECT_THROW(viewer.open(scene), Failure);
+}
+
+// As `brume render` has it: surfaces in fog need no volume, and anything less is refused.
+TEST(Viewer, SurfacesInFogNeedNoVolume)
+{
+  const PrivateDisplay display;
+  if (!display.available())
+  {
+    GTEST_SKIP() << display.reason();
+  }
+  const std::string mesh = BRUME_TEST_OUTPUT "/view-tent.ply";
+  std::ofstream(mesh) << "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                         "property float z\nelement face 2\nproperty list uchar int vertex_indices\n"
+                         "end_header\n0 0 0\n20 0 0\n10 5 15\n10 30 0\n3 0 1 2\n3 1 3 2\n";
+  ordered_json scene{ { "mesh", mesh }, { "quiet", true }, { "fog-extinction", 0.005 },
+    { "sun-direction", { 1.0, -1.0, 1.0 } } };
+  Viewer viewer(scene, settings_of({ MapperKind::RayMarch, MapperKind::FixedPoint }));
+  viewer.resize(900, 300);
+  const auto expected = [&]
+  {
+    const ParsedScene parsed(viewer.scene());
+    const VolumeScene drawn = make_volume_scene(parsed.options());
+    fit_clipping_range(drawn);
+    const SurfacePicture surfaces = draw_meshes(drawn);
+    brume::Film film(drawn.width(), drawn.height());
+    EXPECT_TRUE(drawn.fog->RenderFilm(drawn.camera, drawn.lights, film, surfaces.depth));
+    return brume::Picture{ film.width, film.height, over_scene(film, drawn, surfaces) };
+  };
+  finish(viewer);
+  const brume::Picture before = viewer.shot(0).picture;
+  EXPECT_TRUE(viewer.shot(1).picture.rgb.empty()); // VTK's mappers say why instead
+  EXPECT_LE(difference(before, expected()), 1e-3);
+  // All that is pressed and keyed does something or nothing, and the fog stays.
+  const Box panel = viewer.tiles().back().box;
+  for (int page = 0; page < 4; ++page)
+  {
+    for (int y = 0; y < panel.height; y += 9)
+    {
+      EXPECT_TRUE(viewer.press(panel.x + panel.width / 2, y, y % 2 == 0, false));
+      viewer.drag(panel.x + 20, y + 5);
+      viewer.release();
+      viewer.tiles();
+    }
+    viewer.key("n");
+  }
+  for (const auto& [name, meaning] : Viewer::keys())
+  {
+    viewer.key(name);
+  }
+  viewer.key("BackSpace");
+  viewer.go_on();
+  viewer.reset_camera();
+  finish(viewer);
+  const brume::Picture thin = viewer.shot(0).picture;
+  viewer.set_key("fog-extinction", 0.05);
+  finish(viewer);
+  EXPECT_GT(difference(thin, viewer.shot(0).picture), 0.05);
+  EXPECT_LE(difference(viewer.shot(0).picture, expected()), 1e-3);
+  viewer.set_key("fog-extinction", nullptr); // would leave nothing
+  EXPECT_EQ(viewer.key_of_scene("fog-extinction"), 0.05);
+  // To a volume and back.
+  viewer.open(ball_scene());
+  finish(viewer);
+  viewer.open(scene);
+  finish(viewer);
+  scene.erase("mesh");
   EXPECT_THROW(viewer.open(scene), Failure);
 }
 
