@@ -30,6 +30,9 @@ std::vector<Between> places(int from, int to)
   return all;
 }
 
+/// Pixels of lettering below which a caption is rather cut.
+constexpr int smallest_caption = 10;
+
 TextStyle text_style(const Metrics& metrics, Colour colour = palette::text, bool bold = false)
 {
   return { metrics.text, bold, colour };
@@ -186,14 +189,24 @@ Bitmap caption_of(const std::string& left,
   const Metrics& metrics)
 {
   Canvas canvas(width, height, palette::page);
-  const int baseline = (height + metrics.text) / 2 - metrics.text / 8;
   const int inner = std::max(width - 2 * metrics.margin, 0);
-  const TextStyle name = text_style(metrics, palette::text, true);
-  const TextStyle rest = text_style(metrics, palette::quiet);
+  TextStyle name = text_style(metrics, palette::text, true);
+  TextStyle rest = text_style(metrics, palette::quiet);
+  const auto wanted = [&]
+  { return text_width(left, name) + 2 * metrics.margin + text_width(right, rest); };
+  while (wanted() > inner && name.size > std::max(smallest_caption, metrics.text / 2))
+  {
+    name.size = --rest.size;
+  }
+  if (wanted() > inner) // what is cut is cut in letters that are read well
+  {
+    name.size = rest.size = metrics.text;
+  }
+  const int baseline = (height + name.size) / 2 - name.size / 8;
   const std::string title = fitted(left, name, inner);
   canvas.text(metrics.margin, baseline, title, name);
   const int room = inner - text_width(title, name) - 2 * metrics.margin;
-  if (room > 4 * metrics.text)
+  if (room > 4 * metrics.text || text_width(right, rest) <= room)
   {
     canvas.text(width - metrics.margin, baseline, fitted(right, rest, room), rest, Align::Right);
   }

@@ -26,7 +26,8 @@ Bitmap page_of(const std::vector<std::string>& paragraphs, int width, int height
 Bitmap table_of(const std::vector<std::pair<std::string, std::string>>& rows, int width, int height,
   const Metrics& metrics);
 
-/// One line in a strip, what is more important to the left.
+/// One line in a strip, what is more important to the left. In smaller letters where it does not fit, down to
+/// half the size, and then cut.
 Bitmap caption_of(
   const std::string& left, const std::string& right, int width, int height, const Metrics& metrics);
 

@@ -34,8 +34,58 @@ struct CuttingTools::Internals
   vtkNew<vtkImplicitPlaneRepresentation> PlaneShape;
   vtkNew<vtkCallbackCommand> Ear;
   CuttingTools* Owner = nullptr;
-  Bounds Volume{};
+  Bounds BoxVolume{};
+  Bounds BoxNow{}; ///< what the box was told, or told itself
+  Bounds PlaneVolume{};
   bool PlanePlaced = false; ///< in that volume
+
+  void place_box(const Bounds& volume, const Bounds& now)
+  {
+    this->BoxVolume = volume;
+    this->BoxNow = now;
+    Bounds place = now;
+    this->BoxShape->PlaceWidget(place.data());
+  }
+
+  /// The plane's frame around a volume, with the plane where it was as far as it meets that.
+  void move_plane(const Bounds& volume)
+  {
+    CuttingTools::Plane plane = this->plane();
+    Bounds place = volume;
+    this->PlaneVolume = volume;
+    this->PlaneShape->PlaceWidget(place.data());
+    double origin[3];
+    double off = plane[3];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      origin[axis] = 0.5 * (volume[2 * axis] + volume[2 * axis + 1]);
+      off += plane[axis] * origin[axis];
+    }
+    bool meets = true;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double foot = origin[axis] - off * plane[axis]; // the normal's length is 1
+      origin[axis] = std::clamp(foot, volume[2 * axis], volume[2 * axis + 1]);
+      meets = meets && origin[axis] == foot;
+    }
+    this->PlaneShape->SetNormal(plane.data());
+    this->PlaneShape->SetOrigin(origin);
+    if (!meets)
+    {
+      this->told(this->Plane);
+    }
+  }
+
+  CuttingTools::Plane plane()
+  {
+    double normal[3], origin[3];
+    this->PlaneShape->GetNormal(normal);
+    this->PlaneShape->GetOrigin(origin);
+    return { normal[0],
+      normal[1],
+      normal[2],
+      -(normal[0] * origin[0] + normal[1] * origin[1] + normal[2] * origin[2]) };
+  }
 
   void told(vtkObject* caller)
   {
@@ -45,21 +95,18 @@ struct CuttingTools::Internals
       Bounds bounds;
       for (int axis = 0; axis < 3; ++axis)
       {
-        const double low = this->Volume[2 * axis];
-        const double high = this->Volume[2 * axis + 1];
+        const double low = this->BoxVolume[2 * axis];
+        const double high = this->BoxVolume[2 * axis + 1];
         const double least = thinnest * (high - low);
         bounds[2 * axis] = std::clamp(b[2 * axis], low, high - least);
         bounds[2 * axis + 1] = std::clamp(b[2 * axis + 1], bounds[2 * axis] + least, high);
       }
+      this->BoxNow = bounds;
       this->Owner->Boxed(bounds);
     }
     else if (caller == this->Plane.Get() && this->Owner->Planed)
     {
-      double normal[3], origin[3];
-      this->PlaneShape->GetNormal(normal);
-      this->PlaneShape->GetOrigin(origin);
-      this->Owner->Planed({ normal[0], normal[1], normal[2],
-        -(normal[0] * origin[0] + normal[1] * origin[1] + normal[2] * origin[2]) });
+      this->Owner->Planed(this->plane());
     }
   }
 };
@@ -93,8 +140,10 @@ CuttingTools::~CuttingTools()
   this->hide();
 }
 
-void CuttingTools::switch_box(
-  vtkRenderWindowInteractor* interactor, vtkRenderer* renderer, const Bounds& volume, const Bounds& now)
+void CuttingTools::switch_box(vtkRenderWindowInteractor* interactor,
+  vtkRenderer* renderer,
+  const Bounds& volume,
+  const Bounds& now)
 {
   Internals& in = *this->Internal;
   if (in.Box->GetEnabled())
@@ -102,16 +151,15 @@ void CuttingTools::switch_box(
     in.Box->Off();
     return;
   }
-  in.Volume = volume;
   in.Box->SetInteractor(interactor);
   in.Box->SetDefaultRenderer(renderer);
-  Bounds place = now;
-  in.BoxShape->PlaceWidget(place.data());
+  in.place_box(volume, now);
   in.Box->On();
 }
 
-void CuttingTools::switch_plane(
-  vtkRenderWindowInteractor* interactor, vtkRenderer* renderer, const Bounds& volume)
+void CuttingTools::switch_plane(vtkRenderWindowInteractor* interactor,
+  vtkRenderer* renderer,
+  const Bounds& volume)
 {
   Internals& in = *this->Internal;
   if (in.Plane->GetEnabled())
@@ -121,17 +169,18 @@ void CuttingTools::switch_plane(
   }
   in.Plane->SetInteractor(interactor);
   in.Plane->SetDefaultRenderer(renderer);
-  if (in.PlanePlaced && in.Volume == volume)
+  if (in.PlanePlaced && in.PlaneVolume == volume)
   {
     in.Plane->On(); // where it was
+    in.told(in.Plane);
     return;
   }
-  in.Volume = volume;
+  in.PlaneVolume = volume;
   in.PlanePlaced = true;
   Bounds place = volume;
   in.PlaneShape->PlaceWidget(place.data());
-  in.PlaneShape->SetOrigin(0.5 * (volume[0] + volume[1]), 0.5 * (volume[2] + volume[3]),
-    0.5 * (volume[4] + volume[5]));
+  in.PlaneShape->SetOrigin(
+    0.5 * (volume[0] + volume[1]), 0.5 * (volume[2] + volume[3]), 0.5 * (volume[4] + volume[5]));
   // The half toward the eye goes, along the axis that is nearest to the line of sight.
   double sight[3];
   renderer->GetActiveCamera()->GetDirectionOfProjection(sight);
@@ -151,6 +200,38 @@ void CuttingTools::hide()
 {
   this->Internal->Box->Off();
   this->Internal->Plane->Off();
+  this->Internal->PlanePlaced = false;
+}
+
+void CuttingTools::follow(const Bounds& volume, const Bounds& now)
+{
+  Internals& in = *this->Internal;
+  if (in.Box->GetEnabled() && (volume != in.BoxVolume || now != in.BoxNow))
+  {
+    in.place_box(volume, now);
+  }
+  if (in.Plane->GetEnabled() && volume != in.PlaneVolume)
+  {
+    in.move_plane(volume);
+  }
+}
+
+std::optional<CuttingTools::Bounds> CuttingTools::box() const
+{
+  Internals& in = *this->Internal;
+  if (!in.Box->GetEnabled())
+  {
+    return std::nullopt;
+  }
+  Bounds bounds;
+  std::copy_n(in.BoxShape->GetBounds(), 6, bounds.begin());
+  return bounds;
+}
+
+std::optional<CuttingTools::Plane> CuttingTools::plane() const
+{
+  return this->Internal->Plane->GetEnabled() ? std::optional<Plane>(this->Internal->plane())
+                                             : std::nullopt;
 }
 
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 
 class vtkRenderWindowInteractor;
 class vtkRenderer;
@@ -27,15 +28,25 @@ public:
   std::function<void(const Bounds&)> Boxed;
   std::function<void(const Plane&)> Planed;
 
-  /// Shows the box, around `now` at first, or the plane, which cuts at once, through the middle; or
-  /// hides it: what is cut stays.
+  /// Shows the box, around `now`, or the plane, which cuts at once, at first through the middle, then
+  /// where it was; or hides it: what is cut stays.
   ///@{
   void switch_box(
     vtkRenderWindowInteractor* interactor, vtkRenderer* renderer, const Bounds& volume, const Bounds& now);
   void switch_plane(
     vtkRenderWindowInteractor* interactor, vtkRenderer* renderer, const Bounds& volume);
   ///@}
+  /// Hides both, and forgets where they were.
   void hide();
+  /// The volume may be another, and what is cropped may have been set elsewhere: what is shown goes along. A
+  /// plane that misses the volume comes back to it. Costs nothing while all is as it was.
+  void follow(const Bounds& volume, const Bounds& now);
+
+  /// What is shown; none where it is hidden.
+  ///@{
+  std::optional<Bounds> box() const;
+  std::optional<Plane> plane() const;
+  ///@}
 
 private:
   struct Internals;

@@ -70,6 +70,9 @@ void ViewWindow::Internals::present()
     bool& flag;
     ~Guard() { flag = false; }
   } const guard{ this->Presenting };
+  const VolumeScene& scene = this->View.volume_scene();
+  this->Tools.follow(
+    scene.bounds(), scene.options.modes.cropping.value_or(scene.bounds()));
   // Until other mappers have a picture the window keeps the one before.
   if (this->View.has_pictures() || !this->View.stale())
   {

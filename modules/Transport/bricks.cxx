@@ -2,11 +2,10 @@
 
 #include "Transport/sparse_bricks.h"
 #include "Transport/row_ranges.h"
+#include "Transport/thread_arena.h"
 
 #include <tbb/blocked_range.h>
-#include <tbb/info.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -183,7 +182,7 @@ BrickRanges measure_bricks(const Grid& grid, int threads)
   }
   result.minimum.resize(result.size());
   result.maximum.resize(result.size());
-  tbb::task_arena arena(threads > 0 ? threads : tbb::info::default_concurrency());
+  tbb::task_arena& arena = thread_arena(threads);
   arena.execute([&] { measure_type(grid, result); });
   const float lower = *std::min_element(result.minimum.begin(), result.minimum.end());
   const float upper = *std::max_element(result.maximum.begin(), result.maximum.end());

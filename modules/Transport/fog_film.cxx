@@ -1,5 +1,7 @@
 #include "Transport/fog_film.h"
 
+#include "Transport/thread_arena.h"
+
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
@@ -7,7 +9,6 @@
 #include <tbb/blocked_range.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -118,7 +119,7 @@ bool render_fog(const Scene& scene, Film& film, int threads, const Progress& pro
   };
 
   const int workers = threads > 0 ? threads : tbb::info::default_concurrency();
-  tbb::task_arena arena(workers);
+  tbb::task_arena& arena = thread_arena(workers);
   const int tiles = (film.height + tile_rows - 1) / tile_rows;
   std::atomic<int> done{ 0 };
   std::atomic<bool> aborted{ false };

@@ -1,6 +1,7 @@
 #include "Transport/light_maps.h"
 
 #include "Transport/marcher.h"
+#include "Transport/thread_arena.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -8,7 +9,6 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -266,7 +266,7 @@ void LightMaps::run(SweepTask& task, int threads, const std::function<bool()>& g
   const int rows = task.dims[1] * (task.positional ? task.dims[2] : 1);
   const std::thread::id caller = std::this_thread::get_id();
   std::atomic<bool> ended{ false };
-  tbb::task_arena arena(threads);
+  tbb::task_arena& arena = thread_arena(threads);
   arena.execute(
     [&]
     {

@@ -5,13 +5,13 @@
 #include "Transport/march_task.h"
 #include "Transport/mode_tables.h"
 #include "Transport/shading.h"
+#include "Transport/thread_arena.h"
 
 #include <hwy/targets.h>
 
 #include <tbb/blocked_range.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -404,7 +404,7 @@ MarchStatistics Marcher::render(
   film.clear();
   const int threads =
     settings.threads > 0 ? settings.threads : tbb::info::default_concurrency();
-  tbb::task_arena arena(threads);
+  tbb::task_arena& arena = thread_arena(threads);
   double step = settings.step;
   const bool by_cells = surfaces || scene.blend_mode == BlendMode::MaximumIntensity ||
                         scene.blend_mode == BlendMode::MinimumIntensity;

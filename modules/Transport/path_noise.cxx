@@ -1,8 +1,9 @@
 #include "Transport/path_noise.h"
 
+#include "Transport/thread_arena.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -32,8 +33,7 @@ void PathNoise::in_bands(const std::function<void(int, int)>& work) const
   const int height = this->Behind.height;
   const std::thread::id caller = std::this_thread::get_id();
   std::atomic<bool> ended{ this->Ended };
-  tbb::task_arena arena(this->Threads);
-  arena.execute(
+  thread_arena(this->Threads).execute(
     [&]
     {
       tbb::parallel_for(0,

@@ -6,11 +6,11 @@
 #include "Transport/path_scene.h"
 #include "Transport/path_sights.h"
 #include "Transport/step_control.h"
+#include "Transport/thread_arena.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -208,7 +208,7 @@ PathStatistics PathTracer::render(const Scene& scene,
     const int count = stretches * film.height;
     std::atomic<int> finished{ 0 };
     const auto done = [&] { return std::min(from + part * finished / count, 1.0); };
-    tbb::task_arena arena(statistics.threads);
+    tbb::task_arena& arena = thread_arena(statistics.threads);
     arena.execute(
       [&]
       {

@@ -2,11 +2,10 @@
 
 #include "Transport/reference_film.h"
 #include "Transport/reference_integrators.h"
+#include "Transport/thread_arena.h"
 
 #include <tbb/blocked_range.h>
-#include <tbb/info.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <atomic>
 #include <chrono>
@@ -32,7 +31,7 @@ bool for_each_ray(const Scene& scene,
   const std::thread::id caller = std::this_thread::get_id();
   std::atomic<int> done{ 0 };
   std::atomic<bool> aborted{ false };
-  tbb::task_arena arena(threads > 0 ? threads : tbb::info::default_concurrency());
+  tbb::task_arena& arena = thread_arena(threads);
   arena.execute(
     [&]
     {

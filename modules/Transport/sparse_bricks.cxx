@@ -1,10 +1,9 @@
 #include "Transport/sparse_bricks.h"
 
 #include "Transport/half.h"
+#include "Transport/thread_arena.h"
 
-#include <tbb/info.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -289,7 +288,7 @@ BrickRanges measure_sparse_bricks(const SparseVoxels& voxels, int threads)
 
   Cubes cubes(result);
   std::atomic<std::size_t> non_finite{ 0 };
-  tbb::task_arena arena(threads > 0 ? threads : tbb::info::default_concurrency());
+  tbb::task_arena& arena = thread_arena(threads);
   arena.execute(
     [&]
     {

@@ -1,11 +1,10 @@
 #include "Transport/sparse_voxels.h"
 
 #include "Transport/half.h"
+#include "Transport/thread_arena.h"
 
-#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
-#include <tbb/task_arena.h>
 
 #ifdef __linux__
 #include <sys/mman.h>
@@ -92,7 +91,7 @@ SparseVoxels::SparseVoxels(VoxelType type,
     throw std::length_error(
       "the sparse grid would take " + std::to_string(pool_bytes >> 20) + " MiB");
   }
-  tbb::task_arena arena(threads > 0 ? threads : tbb::info::default_concurrency());
+  tbb::task_arena& arena = thread_arena(threads);
   arena.execute(
     [&]
     {

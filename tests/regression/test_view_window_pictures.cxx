@@ -273,6 +273,22 @@ TEST_F(ViewWindowFault, AMirroredPictureIsSeen)
   EXPECT_FALSE(same(mirrored, this->right));
 }
 
+// And they let pass what other versions of libraries do.
+TEST_F(ViewWindowFault, LetteringAPixelAsideIsNoFault)
+{
+  Bitmap aside = this->right;
+  const int panel = 361; // right of its frame
+  for (int y = 0; y < aside.height; ++y)
+  {
+    unsigned char* row = &aside.rgb[std::size_t{ 3 } * y * aside.width];
+    std::copy_backward(row + 3 * panel, row + 3 * (aside.width - 1), row + 3 * aside.width);
+  }
+  for (const Blocks& block : blocks)
+  {
+    EXPECT_LE(worst_block(aside, this->right, block.edge), block.most) << block.edge;
+  }
+}
+
 TEST_F(ViewWindowFault, AMissingPanelIsSeen)
 {
   EXPECT_FALSE(same(

@@ -2,10 +2,17 @@
 // set.
 #include "view_support.h"
 
+#include "private_display.h"
+
 #include "view/controls.h"
+#include "view/cutting_tools.h"
 #include "view/side_panel.h"
 #include "view/tint.h"
 #include "view/transfer_editor.h"
+
+#include "vtkGenericRenderWindowInteractor.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderer.h"
 
 #include <algorithm>
 #include <random>
@@ -469,4 +476,68 @@ TEST(TransferEditor, ColourPointsMoveBetweenTheirNeighbours)
   remove_colour_point(function, 0);
   remove_colour_point(function, 0);
   EXPECT_EQ(function.colour.size(), 1u);
+}
+
+// What is shown goes along with the volume, and with what was set elsewhere.
+TEST(CuttingTools, FollowTheVolume)
+{
+  const PrivateDisplay display;
+  if (!display.available())
+  {
+    GTEST_SKIP() << display.reason();
+  }
+  vtkNew<vtkRenderWindow> window;
+  vtkNew<vtkRenderer> renderer;
+  vtkNew<vtkGenericRenderWindowInteractor> interactor;
+  window->AddRenderer(renderer);
+  interactor->SetRenderWindow(window);
+  interactor->EnableRenderOff();
+  CuttingTools tools;
+  int boxed = 0;
+  std::vector<CuttingTools::Plane> planes;
+  tools.Boxed = [&](const CuttingTools::Bounds&) { ++boxed; };
+  tools.Planed = [&](const CuttingTools::Plane& plane) { planes.push_back(plane); };
+  const CuttingTools::Bounds first{ 0, 10, 0, 20, 0, 30 };
+  const CuttingTools::Bounds second{ -5, 5, 10, 40, 0, 12 };
+  const CuttingTools::Bounds cut{ 1, 4, 12, 30, 2, 9 };
+  tools.follow(first, first); // hidden: nothing
+  EXPECT_FALSE(tools.box() || tools.plane());
+  const auto near =
+    [](const std::optional<CuttingTools::Bounds>& box, const CuttingTools::Bounds& is)
+  {
+    ASSERT_TRUE(box);
+    for (std::size_t i = 0; i < 6; ++i)
+    {
+      EXPECT_NEAR((*box)[i], is[i], 1e-9);
+    }
+  };
+  tools.switch_box(interactor, renderer, first, first);
+  near(tools.box(), first);
+  tools.follow(second, second);
+  near(tools.box(), second);
+  tools.follow(second, cut);
+  near(tools.box(), cut);
+  EXPECT_EQ(boxed, 0); // the hand tells, not this
+  tools.switch_box(interactor, renderer, second, cut);
+  EXPECT_FALSE(tools.box());
+
+  renderer->GetActiveCamera()->SetPosition(0, -1, 0); // along y
+  tools.switch_plane(interactor, renderer, first);
+  ASSERT_EQ(planes.size(), 1u);
+  const CuttingTools::Plane middle{ 0, 1, 0, -10 };
+  EXPECT_EQ(planes[0], middle);
+  const CuttingTools::Bounds wider{ -100, 10, -50, 90, 0, 3 };
+  tools.follow(wider, wider);
+  ASSERT_TRUE(tools.plane());
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    EXPECT_NEAR((*tools.plane())[i], middle[i], 1e-9);
+  }
+  EXPECT_EQ(planes.size(), 1u); // it cuts as before
+  const CuttingTools::Bounds beyond{ 0, 10, 30, 50, 0, 30 };
+  tools.follow(beyond, beyond);
+  ASSERT_EQ(planes.size(), 2u); // it had missed the volume
+  EXPECT_NEAR(planes[1][3], -30.0, 1e-6);
+  tools.hide();
+  EXPECT_FALSE(tools.plane());
 }
