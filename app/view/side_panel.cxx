@@ -390,20 +390,33 @@ private:
     }
     for (const ShownEffect& effect : shot->effects)
     {
-      if (const std::optional<int> top = this->Sheet.take(2 * this->M.line + this->M.margin / 2))
-      {
-        this->effect(effect, *top);
-      }
+      this->effect(effect);
     }
   }
 
-  void effect(const ShownEffect& effect, int top)
+  /// Its name and cost, and below them the reason, whole.
+  void effect(const ShownEffect& effect)
   {
+    std::string reason = effect.reason;
+    if (!effect.on && effect.error_bound > 0.0)
+    {
+      reason = "error " + figure(effect.error_bound, 2) + ": " + reason;
+    }
+    const TextStyle small{ std::max(8, this->M.text - 2), false, palette::quiet };
+    const int indent = this->M.text + this->M.margin;
+    const std::vector<std::string> lines =
+      wrapped(reason, small, std::max(this->Sheet.inner() - indent, 1), 6);
+    const int height = (1 + static_cast<int>(lines.size())) * this->M.line;
+    const std::optional<int> top = this->Sheet.take(height + this->M.margin / 2);
+    if (!top)
+    {
+      return;
+    }
     const std::string cost =
       !this->Model.times || !std::isfinite(effect.milliseconds) || effect.milliseconds <= 0.0
         ? ""
         : figure(effect.milliseconds, 2) + " ms";
-    const int baseline = top + this->M.text;
+    const int baseline = *top + this->M.text;
     const int mark = this->M.text - 3;
     const int left = this->Sheet.left();
     const int inner = this->Sheet.inner();
@@ -415,22 +428,20 @@ private:
       effect.forced ? warm
       : effect.on   ? palette::accent
                     : bar_colour);
-    const int x = left + this->M.text + this->M.margin;
+    const int x = left + indent;
     this->Sheet.text(left + inner, baseline, cost, colour, inner, Align::Right);
     this->Sheet.text(x,
       baseline,
       effect.name + (effect.forced ? " (forced)" : ""),
       colour,
       inner - (x - left) - text_width(cost, this->Sheet.style(palette::text)) - this->M.margin);
-    std::string reason = effect.reason;
-    if (!effect.on && effect.error_bound > 0.0)
+    int y = baseline + this->M.line - 1;
+    for (const std::string& line : lines)
     {
-      reason = "error " + figure(effect.error_bound, 2) + ": " + reason;
+      this->canvas().text(x, y, line, small);
+      y += this->M.line;
     }
-    const TextStyle small{ std::max(8, this->M.text - 2), false, palette::quiet };
-    this->canvas().text(
-      x, baseline + this->M.line - 1, fitted(reason, small, left + inner - x), small);
-    this->Sheet.spot(HotSpot::Kind::Effect, { left, top, inner, 2 * this->M.line }, 0, effect.name);
+    this->Sheet.spot(HotSpot::Kind::Effect, { left, *top, inner, height }, 0, effect.name);
   }
 
   const PanelModel& Model;

@@ -217,6 +217,52 @@ TEST(Panel, AllOfItIsReachedAndNothingOverlaps)
         }
 }
 
+TEST(Panel, ThePlanTellsAllReasonsWhole)
+{
+  const Metrics metrics(2.0);
+  const Box box = lay_out(800, 600, metrics, 1, true).panel;
+  Viewer viewer(ball_scene(), settings_of({ MapperKind::RayMarch }));
+  Shot shot;
+  PanelModel model;
+  model.page = ControlPage::Plan;
+  model.scene.options = &viewer.volume_scene().options;
+  model.shot = &shot;
+  const auto height_of = [&](const std::string& reason)
+  {
+    shot.effects.assign(1, {});
+    shot.effects[0].name = "first";
+    shot.effects[0].reason = reason;
+    return draw_panel(model, box.width, box.height, metrics).spots.front().box.height;
+  };
+  EXPECT_GE(
+    height_of("optical depth along the view is at most 170: without it pixels could change by 220"),
+    height_of("few words") + metrics.line);
+  shot.effects.resize(18);
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < shot.effects.size(); ++i)
+  {
+    shot.effects[i].name = "effect " + std::to_string(i);
+    shot.effects[i].reason =
+      "optical depth along the view is at most 170: without it pixels could change";
+  }
+  for (model.scroll = 0;; model.scroll += 2 * metrics.line)
+  {
+    const DrawnPanel drawn = draw_panel(model, box.width, box.height, metrics);
+    for (const HotSpot& spot : drawn.spots)
+    {
+      if (spot.kind == HotSpot::Kind::Effect && spot.shown.height == spot.box.height)
+      {
+        seen.insert(spot.name);
+      }
+    }
+    if (model.scroll >= drawn.most)
+    {
+      break;
+    }
+  }
+  EXPECT_EQ(seen.size(), 18u);
+}
+
 // What is scrolled out of sight is not seen through tabs and hint.
 TEST(Panel, TabsAndHintStayWhenThePageIsScrolled)
 {
@@ -281,6 +327,18 @@ TEST(Panel, WheelAndBarScrollIt)
   viewer.release();
   viewer.tiles();
   EXPECT_EQ(viewer.panel().scroll, 0);
+  // Wherever the thumb is taken, it does not jump.
+  viewer.wheel(panel.x + 10, 300, -2);
+  viewer.tiles();
+  const int between = viewer.panel().scroll;
+  ASSERT_TRUE(between > 0 && between < viewer.panel().most);
+  const Box now = viewer.panel().thumb;
+  EXPECT_TRUE(viewer.press(x, now.y + now.height - 2, false, false));
+  viewer.release();
+  viewer.tiles();
+  EXPECT_NEAR(viewer.panel().scroll, between, 4);
+  viewer.wheel(panel.x + 10, 300, 1000);
+  viewer.tiles();
   // Another page begins at its top, and this one stays.
   viewer.wheel(panel.x + 10, 300, -1);
   show_page(viewer, ControlPage::Light);
