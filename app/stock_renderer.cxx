@@ -3,6 +3,7 @@
 #include "command.h"
 #include "interruption.h"
 #include "mesh_scene.h"
+#include "prompt_window.h"
 
 #include "vtkActor.h"
 #include "vtkCallbackCommand.h"
@@ -39,7 +40,7 @@ struct StockRenderer::Internals
   vtkNew<vtkImageData> Image;
   vtkNew<vtkVolume> Volume;
   vtkNew<vtkRenderer> Renderer;
-  vtkNew<vtkRenderWindow> Window;
+  vtkSmartPointer<vtkRenderWindow> Window = make_prompt_window();
   vtkSmartPointer<vtkFixedPointVolumeRayCastMapper> FixedPoint;
   vtkSmartPointer<vtkOpenGLGPUVolumeRayCastMapper> Gpu;
   Clock::time_point Start;
@@ -207,6 +208,7 @@ Picture StockRenderer::frame()
   picture.height = in.Scene->height();
   vtkNew<vtkUnsignedCharArray> bytes;
   in.Window->GetPixelData(0, 0, picture.width - 1, picture.height - 1, 0, bytes);
+  picture.rgb.reserve(static_cast<std::size_t>(bytes->GetNumberOfValues()));
   for (vtkIdType i = 0; i < bytes->GetNumberOfValues(); ++i)
   {
     picture.rgb.push_back(bytes->GetValue(i) / 255.0f);

@@ -46,6 +46,8 @@ double seconds_since(Clock::time_point start)
 
 /// What drafts may be off by: what nobody sees of a picture that moves.
 constexpr double draft_tolerance = 0.03;
+/// Voxels between the nodes of their light volumes.
+constexpr double draft_shadow_voxels = 2.0;
 /// Where the user says no number, paths go on for as many as a patient one waits for.
 constexpr int most_paths = 1 << 20;
 constexpr int paths_at_once = 8; ///< of a pixel, from one picture to the next
@@ -84,8 +86,7 @@ public:
     this->Error.clear();
     this->Go = &go;
     this->Mapper->SetAbortExecute(0);
-    const bool done =
-      this->Mapper->RenderFilm(scene.volume, scene.camera, scene.lights, film);
+    const bool done = this->Mapper->RenderFilm(scene.volume, scene.camera, scene.lights, film);
     this->Go = nullptr;
     if (!done && !this->Stopped)
     {
@@ -103,8 +104,8 @@ private:
   std::string Error;
 };
 
-/// The effects of a mapper's statistics, with what each costs of the seconds that it took: their shares
-/// are those of `brume plan` (effect_cost).
+/// The effects of a mapper's statistics, with what each costs of the seconds that it took: their
+/// shares are those of `brume plan` (effect_cost).
 std::vector<ShownEffect> effects_of(const nlohmann::json& statistics, double seconds)
 {
   std::vector<ShownEffect> effects;
@@ -129,8 +130,8 @@ std::vector<ShownEffect> effects_of(const nlohmann::json& statistics, double sec
     effect.reason = entry.value("reason", "");
     const auto bound = entry.find("error_bound");
     effect.error_bound = bound != entry.end() && bound->is_number()
-      ? bound->get<double>()
-      : std::numeric_limits<double>::quiet_NaN();
+                           ? bound->get<double>()
+                           : std::numeric_limits<double>::quiet_NaN();
     effect.milliseconds = cost_of(effect.name);
     whole += effect.on && effect.milliseconds > 0.0 ? effect.milliseconds : 0.0;
     effects.push_back(std::move(effect));
@@ -142,35 +143,12 @@ std::vector<ShownEffect> effects_of(const nlohmann::json& statistics, double sec
   return effects;
 }
 
-}
-
-namespace
-{
-
-/// Drafts and first whole pictures are ray marches. The path tracer then adds paths until the tolerance
-/// is met; the smart mapper makes the picture that it promises.
+/// Drafts and first whole pictures are ray marches. The path tracer then adds paths until the
+/// tolerance is met; the smart mapper makes the picture that it promises.
 class OwnPainter : public Painter
 {
 public:
-  explicit OwnPainter(MapperKind kind);
-  ~OwnPainter() override;
-
-  void set_scene(const VolumeScene& scene) override;
-  bool draft(int width, int height, double seconds, const KeepGoing& go) override;
-  bool refine(int width, int height, const KeepGoing& go) override;
-  bool finished() const override;
-  const Shot& shot() const override;
-
-private:
-  struct Internals;
-  std::unique_ptr<Internals> Internal;
-};
-
-}
-
-struct OwnPainter::Internals
-{
-  explicit Internals(MapperKind kind)
+  explicit OwnPainter(MapperKind kind)
     : Kind(kind)
     , Drafts(vtkSmartPointer<vtkBrumeRayMarchMapper>::New())
     , March(vtkSmartPointer<vtkBrumeRayMarchMapper>::New())
@@ -185,6 +163,18 @@ struct OwnPainter::Internals
     }
   }
 
+  void set_scene(const VolumeScene& scene) override;
+  bool draft(int width, int height, double seconds, const KeepGoing& go) override;
+  bool refine(int width, int height, const KeepGoing& go) override;
+  bool finished() const override { return this->Finished; }
+  const Shot& shot() const override { return this->Shown; }
+
+private:
+  /// Draws with one of the mappers; false where it was ended.
+  bool draw(FilmMaker& maker, int width, int height, bool draft, const KeepGoing& go);
+  /// Paths are added to those there are, a few at first and then as many again.
+  bool add_paths(int width, int height, const KeepGoing& go);
+
   MapperKind Kind;
   VolumeScene Scene; ///< with a volume of its own
   FilmMaker Drafts;
@@ -193,181 +183,170 @@ struct OwnPainter::Internals
   std::unique_ptr<MeshStage> Meshes;
   Shot Shown;
   bool Finished = false;
-  bool Marched = false;          ///< a whole picture by the march is there
-  int Paths = 0;                 ///< of each pixel of the picture that is there
+  bool Marched = false; ///< a whole picture by the march is there
+  int Paths = 0;        ///< of each pixel of the picture that is there
   double SecondsOfPaths = 0.0;
-  double SecondsPerPixel = 0.0;  ///< of the last draft; 0 before
-  int Divisor = 4;               ///< pixels of a draft's edge; the first is there soon
-
-  /// Draws with one of the mappers; false where it was ended.
-  bool draw(FilmMaker& maker, int width, int height, bool draft, const KeepGoing& go)
-  {
-    const auto start = Clock::now();
-    VolumeScene& scene = this->Scene;
-    scene.options.resolution = { width, height };
-    scene.volume->SetMapper(maker.mapper());
-    fit_clipping_range(scene);
-    SurfacePicture surfaces;
-    if (!scene.meshes.empty())
-    {
-      if (!this->Meshes)
-      {
-        this->Meshes = std::make_unique<MeshStage>();
-      }
-      surfaces = this->Meshes->draw(scene, draft);
-    }
-    maker.mapper()->SetSurfaceDepth(surfaces.depth);
-    const auto kept = std::make_shared<Film>(width, height);
-    Film& film = *kept;
-    if (!maker.draw(scene, film, go))
-    {
-      return false;
-    }
-    const nlohmann::json statistics = nlohmann::json::parse(maker.mapper()->GetStatistics());
-    this->Shown.picture = { width, height, over_scene(film, scene, surfaces) };
-    this->Shown.film = kept;
-    this->Shown.seconds = seconds_since(start);
-    this->Shown.effects = effects_of(statistics, this->Shown.seconds);
-    this->Shown.failure.clear();
-    const auto error = statistics.find("estimated_error");
-    this->Shown.error.reset();
-    if (error != statistics.end() && error->is_number())
-    {
-      this->Shown.error = error->get<double>();
-    }
-    this->Statistics = statistics;
-    return true;
-  }
-  nlohmann::json Statistics; ///< of the last picture
-
-  /// Paths are added to those there are, a few at first and then as many again.
-  bool add_paths(int width, int height, const KeepGoing& go)
-  {
-    auto* paths = static_cast<vtkBrumePathTraceMapper*>(this->Best->mapper());
-    const Shot before = this->Shown;
-    if (!this->draw(*this->Best, width, height, false, go))
-    {
-      this->Shown = before;
-      return false;
-    }
-    this->SecondsOfPaths += this->Shown.seconds;
-    this->Shown.seconds = this->SecondsOfPaths;
-    this->Paths = paths->GetRenderedSamplesPerPixel();
-    this->Shown.state = std::to_string(this->Paths) + " paths a pixel";
-    this->Finished = this->Paths >= paths->GetSamplesPerPixel() || this->Statistics.value("tolerance_met", false);
-    return true;
-  }
+  double SecondsPerPixel = 0.0; ///< of the last draft; 0 before
+  int Divisor = 4;              ///< pixels of a draft's edge; the first is there soon
+  nlohmann::json Statistics;    ///< of the last picture
 };
 
-OwnPainter::OwnPainter(MapperKind kind)
-  : Internal(std::make_unique<Internals>(kind))
+bool OwnPainter::draw(FilmMaker& maker, int width, int height, bool draft, const KeepGoing& go)
 {
+  const auto start = Clock::now();
+  VolumeScene& scene = this->Scene;
+  scene.options.resolution = { width, height };
+  scene.volume->SetMapper(maker.mapper());
+  fit_clipping_range(scene);
+  SurfacePicture surfaces;
+  if (!scene.meshes.empty())
+  {
+    if (!this->Meshes)
+    {
+      this->Meshes = std::make_unique<MeshStage>();
+    }
+    surfaces = this->Meshes->draw(scene, draft);
+  }
+  maker.mapper()->SetSurfaceDepth(surfaces.depth);
+  const auto kept = std::make_shared<Film>(width, height);
+  Film& film = *kept;
+  if (!maker.draw(scene, film, go))
+  {
+    return false;
+  }
+  const nlohmann::json statistics = nlohmann::json::parse(maker.mapper()->GetStatistics());
+  this->Shown.picture = { width, height, over_scene(film, scene, surfaces) };
+  this->Shown.film = kept;
+  this->Shown.seconds = seconds_since(start);
+  this->Shown.effects = effects_of(statistics, this->Shown.seconds);
+  this->Shown.failure.clear();
+  const auto error = statistics.find("estimated_error");
+  this->Shown.error.reset();
+  if (error != statistics.end() && error->is_number())
+  {
+    this->Shown.error = error->get<double>();
+  }
+  this->Statistics = statistics;
+  return true;
 }
-
-OwnPainter::~OwnPainter() = default;
+bool OwnPainter::add_paths(int width, int height, const KeepGoing& go)
+{
+  auto* paths = static_cast<vtkBrumePathTraceMapper*>(this->Best->mapper());
+  const Shot before = this->Shown;
+  if (!this->draw(*this->Best, width, height, false, go))
+  {
+    this->Shown = before;
+    return false;
+  }
+  this->SecondsOfPaths += this->Shown.seconds;
+  this->Shown.seconds = this->SecondsOfPaths;
+  this->Paths = paths->GetRenderedSamplesPerPixel();
+  this->Shown.state = std::to_string(this->Paths) + " paths a pixel";
+  this->Finished =
+    this->Paths >= paths->GetSamplesPerPixel() || this->Statistics.value("tolerance_met", false);
+  return true;
+}
 
 void OwnPainter::set_scene(const VolumeScene& scene)
 {
-  Internals& in = *this->Internal;
   const vtkSmartPointer<vtkVolume> volume =
-    in.Scene.volume ? in.Scene.volume : vtkSmartPointer<vtkVolume>::New();
-  in.Scene = scene;
-  in.Scene.volume = volume;
+    this->Scene.volume ? this->Scene.volume : vtkSmartPointer<vtkVolume>::New();
+  this->Scene = scene;
+  this->Scene.volume = volume;
   volume->SetProperty(scene.volume->GetProperty());
   const auto set_up_march = [&](FilmMaker& maker)
-  { set_up(in.Scene, static_cast<vtkBrumeRayMarchMapper*>(maker.mapper())); };
-  set_up_march(in.March);
-  set_up_march(in.Drafts);
-  static_cast<vtkBrumeRayMarchMapper*>(in.Drafts.mapper())->ReusePlanOn();
-  in.Drafts.mapper()->SetTolerance(std::max(draft_tolerance, scene.options.tolerance));
-  if (in.Kind == MapperKind::PathTrace)
+  { set_up(this->Scene, static_cast<vtkBrumeRayMarchMapper*>(maker.mapper())); };
+  set_up_march(this->March);
+  set_up_march(this->Drafts);
+  auto* drafts = static_cast<vtkBrumeRayMarchMapper*>(this->Drafts.mapper());
+  drafts->ReusePlanOn();
+  if (drafts->GetShadowMethod() != vtkBrumeRayMarchMapper::NoShadows)
   {
-    auto* paths = static_cast<vtkBrumePathTraceMapper*>(in.Best->mapper());
-    set_up(in.Scene, paths);
+    // Made once for a light, and looked up as long as only the camera turns: shadow rays take ten
+    // times as long in a thick cloud.
+    drafts->SetShadowMethodToVolume();
+    drafts->SetShadowSampleDistance(
+      std::max(draft_shadow_voxels * scene.voxel_edge, drafts->GetShadowSampleDistance()));
+  }
+  this->Drafts.mapper()->SetTolerance(std::max(draft_tolerance, scene.options.tolerance));
+  if (this->Kind == MapperKind::PathTrace)
+  {
+    auto* paths = static_cast<vtkBrumePathTraceMapper*>(this->Best->mapper());
+    set_up(this->Scene, paths);
     paths->SetSamplesPerPixel(scene.options.paths.samples_per_pixel.value_or(most_paths));
     paths->SetSamplesPerRender(paths_at_once);
   }
-  else if (in.Kind == MapperKind::Smart)
+  else if (this->Kind == MapperKind::Smart)
   {
-    set_up(in.Scene, static_cast<vtkBrumeSmartVolumeMapper*>(in.Best->mapper()));
+    set_up(this->Scene, static_cast<vtkBrumeSmartVolumeMapper*>(this->Best->mapper()));
   }
 }
 
 bool OwnPainter::draft(int width, int height, double seconds, const KeepGoing& go)
 {
-  Internals& in = *this->Internal;
-  in.Finished = in.Marched = false;
-  in.Paths = 0;
-  in.SecondsOfPaths = 0.0;
-  if (in.SecondsPerPixel > 0.0)
+  this->Finished = this->Marched = false;
+  this->Paths = 0;
+  this->SecondsOfPaths = 0.0;
+  if (this->SecondsPerPixel > 0.0)
   {
     // From one divisor to the next only where it pays, so that a still hand sees no flicker.
-    const double wanted = std::sqrt(in.SecondsPerPixel * width * height / seconds);
+    const double wanted = std::sqrt(this->SecondsPerPixel * width * height / seconds);
     const int divisor = std::clamp(static_cast<int>(std::ceil(wanted)), 1, 16);
-    if (divisor > in.Divisor || wanted < 0.8 * (in.Divisor - 1))
+    if (divisor > this->Divisor || wanted < 0.8 * (this->Divisor - 1))
     {
-      in.Divisor = divisor;
+      this->Divisor = divisor;
     }
   }
-  const int w = std::max(1, (width + in.Divisor - 1) / in.Divisor);
-  const int h = std::max(1, (height + in.Divisor - 1) / in.Divisor);
-  if (!in.draw(in.Drafts, w, h, true, go))
+  const int w = std::max(1, (width + this->Divisor - 1) / this->Divisor);
+  const int h = std::max(1, (height + this->Divisor - 1) / this->Divisor);
+  if (!this->draw(this->Drafts, w, h, true, go))
   {
     return false;
   }
-  const double per_pixel = in.Shown.seconds / (double(w) * h);
-  in.SecondsPerPixel =
-    in.SecondsPerPixel > 0.0 ? 0.5 * (in.SecondsPerPixel + per_pixel) : per_pixel;
-  in.Shown.whole = in.Divisor == 1;
-  in.Shown.state = in.Divisor == 1 ? "draft"
-                                   : "draft, a ray for " + std::to_string(in.Divisor) + " x " +
-      std::to_string(in.Divisor) + " pixels";
+  const double per_pixel = this->Shown.seconds / (double(w) * h);
+  this->SecondsPerPixel =
+    this->SecondsPerPixel > 0.0 ? 0.5 * (this->SecondsPerPixel + per_pixel) : per_pixel;
+  this->Shown.whole = this->Divisor == 1;
+  this->Shown.state = this->Divisor == 1 ? "draft"
+                                         : "draft, a ray for " + std::to_string(this->Divisor) +
+                                             " x " + std::to_string(this->Divisor) + " pixels";
   return true;
 }
 
 bool OwnPainter::refine(int width, int height, const KeepGoing& go)
 {
-  Internals& in = *this->Internal;
-  if (in.Finished)
+  if (this->Finished)
   {
     return false;
   }
-  if (!in.Marched)
+  if (!this->Marched)
   {
-    if (!in.draw(in.March, width, height, false, go))
+    if (!this->draw(this->March, width, height, false, go))
     {
       return false;
     }
-    in.Marched = true;
-    in.Finished = in.Best == nullptr;
-    in.Shown.whole = true;
-    in.Shown.state = "ray march";
+    this->Marched = true;
+    this->Finished = this->Best == nullptr;
+    this->Shown.whole = true;
+    this->Shown.state = "ray march";
     return true;
   }
-  if (in.Kind == MapperKind::PathTrace)
+  if (this->Kind == MapperKind::PathTrace)
   {
-    return in.add_paths(width, height, go);
+    return this->add_paths(width, height, go);
   }
-  if (!in.draw(*in.Best, width, height, false, go))
+  if (!this->draw(*this->Best, width, height, false, go))
   {
     return false;
   }
-  const auto method = in.Statistics.find("method");
-  in.Shown.state = method != in.Statistics.end() && method->is_object()
-    ? "by " + method->value("chosen", std::string("what was chosen"))
-    : "smart";
-  in.Finished = true;
+  const auto method = this->Statistics.find("method");
+  this->Shown.state = method != this->Statistics.end() && method->is_object()
+                        ? "by " + method->value("chosen", std::string("what was chosen"))
+                        : "smart";
+  this->Finished = true;
   return true;
 }
 
-bool OwnPainter::finished() const
-{
-  return this->Internal->Finished;
-}
-
-const Shot& OwnPainter::shot() const
-{
-  return this->Internal->Shown;
 }
 
 std::unique_ptr<Painter> make_own_painter(MapperKind kind)

@@ -64,6 +64,11 @@ void RefinementWatch::look(bool must_end)
   }
 }
 
+double RefinementWatch::since_look() const
+{
+  return seconds_since(this->Looked);
+}
+
 double RefinementWatch::age() const
 {
   return seconds_since(this->Start);

@@ -46,6 +46,8 @@ class RefinementWatch
 public:
   /// It looks for input now, and `must_end` is what it finds.
   void look(bool must_end);
+  /// Seconds since it looked last.
+  double since_look() const;
   bool asked_to_end() const { return this->Asked.has_value(); }
   /// Seconds since it began.
   double age() const;

@@ -16,7 +16,8 @@ using Clock = std::chrono::steady_clock;
 constexpr unsigned long tick = 10;  ///< milliseconds between looks at what is left to do
 constexpr unsigned long rest = 200; ///< the same where nothing is, for Ctrl-C
 constexpr double flicker_seconds = 0.5;
-constexpr double told_every = 0.1; ///< seconds between figures of progress
+constexpr double told_every = 0.25; ///< seconds between figures of progress, for each of which all is shown anew
+constexpr double look_every = 2e-3; ///< seconds between looks for input, which cost some microseconds each
 /// While events come faster than pictures, a picture is due after so many seconds all the same.
 constexpr double longest_wait = 0.05;
 /// A hand that turns the camera rests when it has done nothing for so many seconds.
@@ -139,6 +140,10 @@ bool ViewWindow::Internals::refine_once(bool heed)
   RefinementWatch watch;
   const KeepGoing go = [&](double done)
   {
+    if (watch.since_look() < look_every)
+    {
+      return !watch.asked_to_end();
+    }
     watch.look((heed && this->input_waits()) || InterruptionWatch::requested());
     // VTK's mappers tell nothing, and another window must not be drawn while they draw.
     if (!watch.asked_to_end() && done > 0.0 && watch.age() > 0.3 &&

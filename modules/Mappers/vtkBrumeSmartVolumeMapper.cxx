@@ -316,6 +316,8 @@ bool vtkBrumeSmartVolumeMapper::RenderScene(brume::Scene& scene, brume::Film& fi
     std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(this->SecondsScene));
   Picture picture{ scene, film, {}, Clock::now() - spent, this->TimeBudget, window };
   const brume::Progress tell = [this](double fraction) { return this->TellProgress(fraction); };
+  // Choices are made by many small renders.
+  this->Internal->Marcher.set_watch([this] { return this->TellProgress(0.0); });
 
   brume::MethodWish wish;
   wish.tolerance = this->Tolerance;

@@ -2,7 +2,7 @@
 
 #include "Transport/sparse_bricks.h"
 #include "Transport/row_ranges.h"
-#include "thread_arena.h"
+#include "Transport/thread_arena.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

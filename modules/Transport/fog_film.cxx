@@ -1,5 +1,6 @@
 #include "Transport/fog_film.h"
-#include "thread_arena.h"
+
+#include "Transport/thread_arena.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>

@@ -1,5 +1,7 @@
 #include "Transport/light_maps.h"
-#include "thread_arena.h"
+
+#include "Transport/marcher.h"
+#include "Transport/thread_arena.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -9,8 +11,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
+#include <thread>
 
 namespace brume
 {
@@ -257,17 +261,35 @@ double LightMaps::deepest(const Scene& scene, const std::vector<VolumeTask>& vol
   return sum;
 }
 
-void LightMaps::run(SweepTask& task, int threads) const
+void LightMaps::run(SweepTask& task, int threads, const std::function<bool()>& go) const
 {
   const int rows = task.dims[1] * (task.positional ? task.dims[2] : 1);
+  const std::thread::id caller = std::this_thread::get_id();
+  std::atomic<bool> ended{ false };
   tbb::task_arena& arena = thread_arena(threads);
   arena.execute(
     [&]
     {
-      tbb::parallel_for(tbb::blocked_range<int>(0, rows, 4),
+      tbb::parallel_for(
+        tbb::blocked_range<int>(0, rows, 4),
         [&](const tbb::blocked_range<int>& range)
-        { sweep(task, range.begin(), range.end()); });
+        {
+          if (ended)
+          {
+            return;
+          }
+          sweep(task, range.begin(), range.end());
+          if (go && std::this_thread::get_id() == caller && !go())
+          {
+            ended = true;
+          }
+        },
+        tbb::simple_partitioner());
     });
+  if (ended)
+  {
+    throw Marcher::Interrupted();
+  }
 }
 
 void LightMaps::update(const Scene& scene,
@@ -278,7 +300,8 @@ void LightMaps::update(const Scene& scene,
   bool floats,
   int threads,
   LitTask& lit,
-  bool ambient)
+  bool ambient,
+  const std::function<bool()>& go)
 {
   const Volume& first = scene.volumes[0];
   this->WorldFromIndex = first.world_from_data * first.data_from_index;
@@ -356,7 +379,7 @@ void LightMaps::update(const Scene& scene,
         void* out = reserve(lattice, map, map < lit.maps ? count : 0, wide);
         task.out[map] = map < lit.maps ? out : nullptr;
       }
-      this->run(task, threads);
+      this->run(task, threads, go);
       lattice.key = std::move(key);
     }
     float node_from_index[12];
@@ -414,7 +437,7 @@ void LightMaps::update(const Scene& scene,
         task.out[3 * side + map] = wanted ? out : nullptr;
       }
     }
-    this->run(task, threads);
+    this->run(task, threads, go);
     this->Ambient.key = std::move(key);
   }
   for (int side = 0; side < 2; ++side)

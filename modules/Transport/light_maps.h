@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace brume
@@ -32,7 +33,9 @@ public:
   /// Makes what is missing and fills in the lights of `lit`, whose volumes and frames are there.
   /// `volumes` are those of the scene, prepared; `spacing` the distance between nodes in the world,
   /// `voxel` the smallest voxel edge there. `matter` names all that shadows hang on but the lights;
-  /// `ambient`: whether the light of sky and ground is wanted.
+  /// `ambient`: whether the light of sky and ground is wanted. `go`, if there is one, is asked now and
+  /// then from the calling thread; where it says false this throws Marcher::Interrupted, and what was
+  /// begun is made anew next time.
   void update(const Scene& scene,
     const std::vector<VolumeTask>& volumes,
     const std::vector<double>& matter,
@@ -41,7 +44,8 @@ public:
     bool floats,
     int threads,
     LitTask& lit,
-    bool ambient);
+    bool ambient,
+    const std::function<bool()>& go);
 
   std::size_t bytes() const;
   void clear();
@@ -55,7 +59,7 @@ private:
     const LitTask& lit,
     bool whole);
   double deepest(const Scene& scene, const std::vector<VolumeTask>& volumes) const;
-  void run(SweepTask& task, int threads) const;
+  void run(SweepTask& task, int threads, const std::function<bool()>& go) const;
 
   std::vector<LightLattice> Lights;
   LightLattice Ambient;

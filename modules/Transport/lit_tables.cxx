@@ -446,7 +446,8 @@ double LitTables::largest_phase_toward_camera(
 void LitTables::update(const Scene& scene,
   const MarchSettings& settings,
   const std::vector<VolumeTask>& volumes,
-  int threads)
+  int threads,
+  const std::function<bool()>& go)
 {
   LitTask& task = this->Task;
   const std::size_t count = scene.volumes.size();
@@ -525,7 +526,7 @@ void LitTables::update(const Scene& scene,
     }
     const bool floats = settings.precise_shadows;
     this->Maps.update(
-      scene, volumes, matter, spacing, voxel * shrink, floats, threads, task, ambient);
+      scene, volumes, matter, spacing, voxel * shrink, floats, threads, task, ambient, go);
     plain = plain && task.ambient.empty();
   }
   else

@@ -9,6 +9,7 @@
 #include "Transport/scene.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -24,11 +25,12 @@ class LitTables
 {
 public:
   /// Brings everything up to date. `shadow_step` is in the data's units of the first volume, 0 for the
-  /// method's default.
+  /// method's default. `go`: see LightMaps::update.
   void update(const Scene& scene,
     const MarchSettings& settings,
     const std::vector<VolumeTask>& volumes,
-    int threads);
+    int threads,
+    const std::function<bool()>& go);
 
   const LitTask& task() const { return this->Task; }
   std::size_t bytes() const { return this->Maps.bytes(); }

@@ -5,7 +5,7 @@
 #include "Transport/march_task.h"
 #include "Transport/mode_tables.h"
 #include "Transport/shading.h"
-#include "thread_arena.h"
+#include "Transport/thread_arena.h"
 
 #include <hwy/targets.h>
 
@@ -17,7 +17,9 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
+#include <functional>
 #include <limits>
 #include <mutex>
 #include <optional>
@@ -31,6 +33,9 @@ namespace
 {
 
 constexpr int tile_edge = 32;
+/// Tiles are marched in parts, so that whoever waits is soon asked whether to go on, and no thread is left
+/// with a long tile at the end: no smaller than the largest packet, so that the same rays stay together.
+constexpr int part_edge = 4;
 
 double seconds_since(std::chrono::steady_clock::time_point start)
 {
@@ -390,6 +395,10 @@ MarchStatistics Marcher::render(
     return this->render(first, settings, film, progress);
   }
 
+  // Who is asked whether to go on.
+  const Progress ask = progress ? progress
+    : this->Watch               ? Progress([this](double) { return this->Watch(); })
+                                : Progress();
   MarchStatistics statistics;
   // Reset the film: rays that miss the grid do not write.
   film.clear();
@@ -433,7 +442,23 @@ MarchStatistics Marcher::render(
   {
     const auto start_light = std::chrono::steady_clock::now();
     LitTables& lit = this->Kept->lit;
-    lit.update(scene, settings, volumes, threads);
+    std::function<bool()> go;
+    if (ask)
+    {
+      go = [&ask] { return ask(0.0); };
+    }
+    try
+    {
+      lit.update(scene, settings, volumes, threads, go);
+    }
+    catch (const Interrupted&)
+    {
+      if (progress)
+      {
+        return statistics;
+      }
+      throw;
+    }
     statistics.seconds_light = seconds_since(start_light);
     statistics.shadows = lit.task().shadows;
     statistics.shadow_step = lit.shadow_step();
@@ -482,43 +507,47 @@ MarchStatistics Marcher::render(
   const auto start = std::chrono::steady_clock::now();
   const int tiles_x = (film.width + tile_edge - 1) / tile_edge;
   const int tiles_y = (film.height + tile_edge - 1) / tile_edge;
-  const int tiles = tiles_x * tiles_y;
+  const int parts_x = tile_edge / part_edge; // of a tile
+  const int parts = parts_x * parts_x;
+  const double pixels = double(film.width) * film.height;
   std::atomic<std::uint64_t> samples{ 0 };
   std::atomic<std::uint64_t> ray_count{ 0 };
-  std::atomic<int> done{ 0 };
+  std::atomic<std::int64_t> done{ 0 }; // pixels
   std::atomic<bool> aborted{ false };
-  const bool watched = !progress && this->Watch;
   const std::thread::id caller = std::this_thread::get_id();
+  const auto march_part = [&](int tile, int part)
+  {
+    MarchTask task = common;
+    task.x0 = tile % tiles_x * tile_edge + part % parts_x * part_edge;
+    task.y0 = tile / tiles_x * tile_edge + part / parts_x * part_edge;
+    if (task.x0 >= film.width || task.y0 >= film.height)
+    {
+      return;
+    }
+    task.x1 = std::min(task.x0 + part_edge, film.width);
+    task.y1 = std::min(task.y0 + part_edge, film.height);
+    const MarchCount count = integrator(task);
+    samples += count.samples;
+    ray_count += count.rays;
+    const std::int64_t finished =
+      done += std::int64_t(task.x1 - task.x0) * (task.y1 - task.y0);
+    if (ask && std::this_thread::get_id() == caller && !ask(double(finished) / pixels))
+    {
+      aborted = true;
+    }
+  };
   if (visible_bricks > 0 || common.fog || scene.blend_mode == BlendMode::Additive)
   {
     arena.execute(
       [&]
       {
         tbb::parallel_for(
-          tbb::blocked_range<int>(0, tiles, 1),
+          tbb::blocked_range<int>(0, tiles_x * tiles_y * parts, 1),
           [&](const tbb::blocked_range<int>& range)
           {
-            for (int tile = range.begin(); tile != range.end(); ++tile)
+            for (int i = range.begin(); i != range.end() && !aborted; ++i)
             {
-              if (aborted)
-              {
-                return;
-              }
-              MarchTask task = common;
-              task.x0 = tile % tiles_x * tile_edge;
-              task.y0 = tile / tiles_x * tile_edge;
-              task.x1 = std::min(task.x0 + tile_edge, film.width);
-              task.y1 = std::min(task.y0 + tile_edge, film.height);
-              const MarchCount count = integrator(task);
-              samples += count.samples;
-              ray_count += count.rays;
-              const int finished = ++done;
-              if (std::this_thread::get_id() == caller &&
-                  ((progress && !progress(double(finished) / tiles)) ||
-                    (watched && !this->Watch())))
-              {
-                aborted = true;
-              }
+              march_part(i / parts, i % parts);
             }
           },
           tbb::simple_partitioner());
@@ -528,7 +557,7 @@ MarchStatistics Marcher::render(
   {
     aborted = true;
   }
-  if (watched && aborted)
+  if (aborted && !progress)
   {
     throw Interrupted();
   }

@@ -1,12 +1,12 @@
 #include "Transport/path_tracer.h"
 
 #include "Transport/path_error.h"
-#include "Transport/path_found.h"
+#include "Transport/path_noise.h"
 #include "Transport/path_pixels.h"
 #include "Transport/path_scene.h"
 #include "Transport/path_sights.h"
 #include "Transport/step_control.h"
-#include "thread_arena.h"
+#include "Transport/thread_arena.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/info.h>
@@ -17,6 +17,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -35,14 +36,11 @@ constexpr int fewest_samples = PathSettings::fewest_samples;
 /// Paths a pixel of one pass, at the most: a pass is what is waited for when time is short.
 constexpr int most_of_pass = 64;
 
-/// Paths that are handed out together, about.
-constexpr int paths_at_once = 4096;
-
-/// How many times the paths of a pixel one pass may multiply, where pixels have their own number: what
-/// they are by is an estimate that the pass betters. Their numbers differ by whole steps of a part of
-/// what they have, so that many go together in packets.
-constexpr double most_growth = 3.0;
-constexpr int parts_of_growth = 8;
+/// Paths that are handed out together, about: many enough that packets of them are full, and few enough that
+/// no thread is waited for long.
+constexpr int paths_at_once = 2048;
+/// Pixels of a row that one thread does where their numbers of paths differ.
+constexpr int own_stretch = 64;
 
 /// How many times the seconds there are the first path of each pixel may take.
 constexpr double patience = 4.0;
@@ -116,115 +114,6 @@ struct PathTracer::Kept
     }
     return sum / static_cast<double>(this->Paths.samples.size());
   }
-
-  /// The variance of the mean of a pixel's paths.
-  double variance(std::size_t pixel, int channel) const
-  {
-    return this->Paths.variance(pixel, channel) / std::max(this->Paths.samples[pixel], 1);
-  }
-  /// At least this much, where all of a pixel's paths are black. What its ray meets does not dim: nothing is
-  /// there that light could be found in.
-  double unfound_variance(const FoundLight& found, int x, int y, int channel) const
-  {
-    const std::size_t pixel = static_cast<std::size_t>(y) * this->Width + x;
-    const int n = this->Paths.samples[pixel];
-    if (n < 1 || this->Paths.sums[3 * pixel + channel] != 0.0 ||
-        this->Behind.transmittance[channel][pixel] == 1.0f)
-    {
-      return 0.0;
-    }
-    const double brought = found.brought(x, y, channel);
-    return brought * brought / n;
-  }
-  /// Of a pixel's paths, channel by channel; no less than the mean of the pixels around it, as samples that
-  /// are all alike tell little.
-  void careful_variance(const FoundLight& found, int x, int y, double v[3]) const
-  {
-    for (int c = 0; c < 3; ++c)
-    {
-      double around = 0.0;
-      int count = 0;
-      for (int j = std::max(y - 1, 0); j <= std::min(y + 1, this->Height - 1); ++j)
-      {
-        for (int i = std::max(x - 1, 0); i <= std::min(x + 1, this->Width - 1); ++i, ++count)
-        {
-          around += this->Paths.variance(static_cast<std::size_t>(j) * this->Width + i, c);
-        }
-      }
-      const double own = this->Paths.variance(static_cast<std::size_t>(y) * this->Width + x, c);
-      v[c] = std::isnan(own)
-               ? own
-               : std::max({ own, around / count, this->unfound_variance(found, x, y, c) });
-    }
-  }
-  PathError error() const
-  {
-    PathError error;
-    const FoundLight found(this->Paths, this->Width, this->Height);
-    for (int y = 0; y < this->Height; ++y)
-    {
-      for (int x = 0; x < this->Width; ++x)
-      {
-        const int n = this->Paths.samples[static_cast<std::size_t>(y) * this->Width + x];
-        double v[3];
-        this->careful_variance(found, x, y, v);
-        for (double& channel : v)
-        {
-          channel /= std::max(n, 1);
-        }
-        error.add(v, n);
-      }
-    }
-    return error;
-  }
-  /// Paths that bring each pixel's standard error down to `cap`, from one pass to the next; at the least or
-  /// about.
-  void find_targets(double cap, int most, bool at_least, std::vector<int>& targets) const
-  {
-    targets.resize(this->Paths.samples.size());
-    const FoundLight found(this->Paths, this->Width, this->Height);
-    for (int y = 0; y < this->Height; ++y)
-    {
-      for (int x = 0; x < this->Width; ++x)
-      {
-        const std::size_t pixel = static_cast<std::size_t>(y) * this->Width + x;
-        double v[3];
-        this->careful_variance(found, x, y, v);
-        const double n = this->Paths.samples[pixel];
-        const double largest = std::max({ v[0], v[1], v[2] });
-        const double highest = std::max<double>(n, std::min<double>(most, most_growth * n));
-        const double wanted = largest == 0.0                        ? n
-                              : cap > 0.0 && std::isfinite(largest) ? largest / (cap * cap)
-                                                                    : highest;
-        const double part = std::max(std::floor(n / parts_of_growth), 1.0);
-        const double parts = (std::clamp(wanted, n, highest) - n) / part;
-        const double target = n + part * (at_least ? std::ceil(parts) : std::round(parts));
-        targets[pixel] = static_cast<int>(std::min<double>(target, most));
-      }
-    }
-  }
-  void show(Film& film) const
-  {
-    film.transmittance[0] = this->Behind.transmittance[0];
-    film.transmittance[1] = this->Behind.transmittance[1];
-    film.transmittance[2] = this->Behind.transmittance[2];
-    film.depth = this->Behind.depth;
-    const FoundLight found(this->Paths, this->Width, this->Height);
-    for (std::size_t pixel = 0; pixel < film.size(); ++pixel)
-    {
-      const int n = std::max(this->Paths.samples[pixel], 1);
-      const int x = static_cast<int>(pixel % this->Width);
-      const int y = static_cast<int>(pixel / this->Width);
-      double largest = 0.0;
-      for (int c = 0; c < 3; ++c)
-      {
-        film.radiance[c][pixel] = static_cast<float>(this->Paths.sums[3 * pixel + c] / n);
-        largest = std::max(
-          { largest, this->variance(pixel, c), this->unfound_variance(found, x, y, c) / n });
-      }
-      film.error[pixel] = static_cast<float>(3.0 * std::sqrt(largest));
-    }
-  }
 };
 
 PathTracer::PathTracer()
@@ -290,21 +179,47 @@ PathStatistics PathTracer::render(const Scene& scene,
   std::atomic<std::uint64_t> traced{ 0 };
   const int already = kept.fewest();
   std::atomic<bool> late{ false };
+  double told = 0.0; // of the progress
+  const auto tell = [&](double fraction)
+  {
+    told = fraction;
+    return !progress || progress(fraction);
+  };
+  std::optional<PathNoise> noise; // of the paths there are
+  const auto find_noise = [&]() -> const PathNoise&
+  {
+    if (!noise)
+    {
+      noise.emplace(kept.Paths, kept.Behind, statistics.threads, [&] { return tell(told); });
+    }
+    return *noise;
+  };
 
   /// Brings every pixel to its target; `from` and `part` are of the progress.
   const auto pass = [&](const PathTargets& targets, double from, double part, bool may_be_late)
   {
-    std::atomic<int> rows{ 0 };
+    noise.reset();
+    // Stretches of rows that one thread does; where pixels have their own numbers, nobody knows how many
+    // paths are in one.
+    const int each = std::max(targets.all - kept.fewest(), 1);
+    const int stretch =
+      std::clamp(targets.each ? own_stretch : paths_at_once / each, 1, film.width);
+    const int stretches = (film.width + stretch - 1) / stretch;
+    const int count = stretches * film.height;
+    std::atomic<int> finished{ 0 };
+    const auto done = [&] { return std::min(from + part * finished / count, 1.0); };
     tbb::task_arena& arena = thread_arena(statistics.threads);
     arena.execute(
       [&]
       {
         tbb::parallel_for(
-          tbb::blocked_range<int>(0, film.height, 1),
+          tbb::blocked_range<int>(0, count, 1),
           [&](const tbb::blocked_range<int>& range)
           {
-            for (int y = range.begin(); y != range.end(); ++y)
+            for (int i = range.begin(); i != range.end(); ++i)
             {
+              const int y = i / stretches;
+              const int last = std::min((i % stretches + 1) * stretch, film.width);
               PathCounts counts;
               counts.look_up = [&]
               {
@@ -314,8 +229,7 @@ PathStatistics PathTracer::render(const Scene& scene,
                 {
                   late = true;
                 }
-                if (progress && std::this_thread::get_id() == caller &&
-                    !progress(std::min(from + part * rows / film.height, 1.0)))
+                if (std::this_thread::get_id() == caller && !tell(done()))
                 {
                   aborted = true;
                 }
@@ -324,26 +238,26 @@ PathStatistics PathTracer::render(const Scene& scene,
                   throw PathsStopped();
                 }
               };
-              int x = 0;
-              while (x < film.width && !aborted && !late)
+              int x = i % stretches * stretch;
+              while (x < last && !aborted && !late)
               {
                 // So many pixels at once that packets of paths are full, and no wait is long.
                 int end = x;
                 int many = 0;
                 PathTargets some = targets;
-                while (end < film.width && many < paths_at_once)
+                while (end < last && many < paths_at_once)
                 {
                   const std::size_t pixel = static_cast<std::size_t>(y) * film.width + end;
                   const int first = kept.Paths.samples[pixel];
-                  const int more = targets.of(pixel) - first;
-                  if (more > paths_at_once)
+                  const int paths_more = targets.of(pixel) - first;
+                  if (paths_more > paths_at_once)
                   {
                     // By itself, a part at a time.
                     some.all = end == x ? first + paths_at_once : targets.all;
                     end += end == x;
                     break;
                   }
-                  many += std::max(more, 0);
+                  many += std::max(paths_more, 0);
                   ++end;
                 }
                 try
@@ -361,8 +275,7 @@ PathStatistics PathTracer::render(const Scene& scene,
                 {
                   late = true;
                 }
-                if (progress && std::this_thread::get_id() == caller &&
-                    !progress(std::min(from + part * rows / film.height, 1.0)))
+                if (std::this_thread::get_id() == caller && !tell(done()))
                 {
                   aborted = true;
                 }
@@ -370,7 +283,7 @@ PathStatistics PathTracer::render(const Scene& scene,
               collisions += counts.collisions;
               scatterings += counts.scatterings;
               shadow_rays += counts.shadow_rays;
-              ++rows;
+              ++finished;
             }
           },
           tbb::simple_partitioner());
@@ -386,7 +299,12 @@ PathStatistics PathTracer::render(const Scene& scene,
     PathError error;
     if (estimated && (settings.tolerance > 0.0 || settings.adaptive))
     {
-      error = kept.error();
+      error = find_noise().error();
+      if (noise->ended())
+      {
+        aborted = true;
+        break;
+      }
       if (settings.tolerance > 0.0 && error.quantile(settings.beyond) <= settings.tolerance)
       {
         break;
@@ -410,7 +328,7 @@ PathStatistics PathTracer::render(const Scene& scene,
         more = affordable;
         cap = error.cap_of(more);
       }
-      kept.find_targets(cap, settings.samples_per_pixel, !short_of_time, targets);
+      find_noise().find_targets(cap, settings.samples_per_pixel, !short_of_time, targets);
       double in_pass = 0.0;
       for (std::size_t pixel = 0; pixel < targets.size(); ++pixel)
       {
@@ -421,7 +339,9 @@ PathStatistics PathTracer::render(const Scene& scene,
         break;
       }
       more = std::max(more, in_pass);
-      pass({ settings.samples_per_pixel, targets.data() }, done / (done + more), in_pass / (done + more),
+      pass({ settings.samples_per_pixel, targets.data() },
+        done / (done + more),
+        in_pass / (done + more),
         timed);
       continue;
     }
@@ -454,19 +374,24 @@ PathStatistics PathTracer::render(const Scene& scene,
   {
     std::fill(kept.Paths.samples.begin(), kept.Paths.samples.end(), settings.samples_per_pixel);
   }
-  kept.show(film);
+  if (!aborted)
+  {
+    find_noise().show(film);
+    aborted = noise->ended();
+  }
+  if (aborted)
+  {
+    PathNoise(kept.Paths, kept.Behind, statistics.threads, {}).show(film);
+  }
   statistics.samples_per_pixel = kept.fewest();
   statistics.mean_samples = kept.mean_samples();
-  if (statistics.samples_per_pixel >= fewest_samples || !paths.can_send())
+  if (!aborted && (statistics.samples_per_pixel >= fewest_samples || !paths.can_send()))
   {
-    const PathError error = kept.error();
+    const PathError error = find_noise().error();
     statistics.estimated_error = error.quantile();
     statistics.rms_error = error.rms();
   }
-  if (progress && !aborted && !progress(1.0))
-  {
-    aborted = true;
-  }
+  aborted = aborted || (noise && noise->ended()) || !tell(1.0);
   statistics.seconds = seconds_since(start);
   statistics.paths = traced;
   statistics.collisions = collisions;

@@ -2,7 +2,7 @@
 
 #include "Transport/reference_film.h"
 #include "Transport/reference_integrators.h"
-#include "thread_arena.h"
+#include "Transport/thread_arena.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

@@ -1,7 +1,7 @@
 #include "Transport/sparse_bricks.h"
 
 #include "Transport/half.h"
-#include "thread_arena.h"
+#include "Transport/thread_arena.h"
 
 #include <tbb/parallel_for.h>
 

@@ -1,4 +1,4 @@
-#include "thread_arena.h"
+#include "Transport/thread_arena.h"
 
 #include <tbb/info.h>
 
