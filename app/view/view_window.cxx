@@ -65,7 +65,7 @@ void ViewWindow::Internals::observe()
   { return taken([&] { return this->View.wheel(x, y, steps); }); };
   this->Style->Key = [this](const std::string& symbol, bool control)
   { this->try_to([&] { this->key(symbol, control); }); };
-  this->Style->Done = [this] { this->try_to([&] { this->want_picture(); }); };
+  this->Style->Done = [this] { this->try_to([&] { this->want_picture(false); }); };
   this->Tools.Boxed = [this](const CuttingTools::Bounds& bounds)
   { this->View.set_key("cropping", nlohmann::ordered_json(bounds)); };
   this->Tools.Planed = [this](const CuttingTools::Plane& plane) { this->set_plane(plane); };

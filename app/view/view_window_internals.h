@@ -80,9 +80,10 @@ struct ViewWindow::Internals
 
   // Pictures
   /// Something may have changed: soon there is a picture of it.
-  void want_picture();
-  void show();
-  void present();
+  void want_picture(bool always = true);
+  void show(bool always = true);
+  /// `always`: draws the window though no tile is another, as the cutting tools may be.
+  void present(bool always = true);
   void set_timer(bool resting);
   void start_timer() { this->set_timer(false); }
   bool flickers() const;

@@ -25,7 +25,7 @@ constexpr double still_seconds = 0.1;
 
 }
 
-void ViewWindow::Internals::want_picture()
+void ViewWindow::Internals::want_picture(bool always)
 {
   if (this->View.camera()->GetMTime() != this->CameraTime)
   {
@@ -36,11 +36,11 @@ void ViewWindow::Internals::want_picture()
   // Several moves in a row make one picture.
   if (!this->input_waits() || this->Event.age() > longest_wait)
   {
-    this->show();
+    this->show(always);
   }
 }
 
-void ViewWindow::Internals::show()
+void ViewWindow::Internals::show(bool always)
 {
   const bool drew = this->View.stale();
   if (drew)
@@ -49,7 +49,7 @@ void ViewWindow::Internals::show()
       [](double) { return !InterruptionWatch::requested(); }, [this] { this->present(); });
     this->CameraTime = this->View.camera()->GetMTime();
   }
-  this->present();
+  this->present(always);
   if (this->Event.waits() && drew)
   {
     this->Times.responses.push_back(this->Event.age());
@@ -58,7 +58,7 @@ void ViewWindow::Internals::show()
   this->Event.answered();
 }
 
-void ViewWindow::Internals::present()
+void ViewWindow::Internals::present(bool always)
 {
   if (this->Presenting)
   {
@@ -76,7 +76,11 @@ void ViewWindow::Internals::present()
   // Until other mappers have a picture the window keeps the one before.
   if (this->View.has_pictures() || !this->View.stale())
   {
-    this->Tiles.take(this->View.tiles(), this->View.camera());
+    const bool changed = this->Tiles.take(this->View.tiles(), this->View.camera());
+    if (!changed && !always)
+    {
+      return; // the window shows it
+    }
   }
   this->Window->Render();
   if (this->Times.first_picture == 0.0 && this->View.has_pictures())

@@ -61,8 +61,9 @@ WindowTiles::WindowTiles(vtkRenderWindow* window)
 
 WindowTiles::~WindowTiles() = default;
 
-void WindowTiles::take(const std::vector<Tile>& tiles, vtkCamera* camera)
+bool WindowTiles::take(const std::vector<Tile>& tiles, vtkCamera* camera)
 {
+  bool changed = this->Tiles.size() != tiles.size();
   while (this->Tiles.size() > tiles.size())
   {
     this->Window->RemoveRenderer(this->Tiles.back()->renderer);
@@ -79,8 +80,10 @@ void WindowTiles::take(const std::vector<Tile>& tiles, vtkCamera* camera)
     if (this->Tiles[i]->version != tiles[i].version)
     {
       this->Tiles[i]->take(tiles[i], size, camera);
+      changed = true;
     }
   }
+  return changed;
 }
 
 vtkRenderer* WindowTiles::first() const

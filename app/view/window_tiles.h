@@ -24,7 +24,8 @@ public:
 
   /// Takes on the tiles that are others than at the last call, without drawing the window. Their
   /// bitmaps must stay until the next call. Pictures share the camera.
-  void take(const std::vector<Tile>& tiles, vtkCamera* camera);
+  /// Whether there were any.
+  bool take(const std::vector<Tile>& tiles, vtkCamera* camera);
 
   /// Of the first tile: where the cutting tools stand. There must be one.
   vtkRenderer* first() const;
