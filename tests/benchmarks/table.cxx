@@ -131,7 +131,7 @@ std::string to_text(const std::vector<Row>& rows)
   text += '\n';
   for (const Row& row : rows)
   {
-    std::string line = "- **" + std::to_string(row.number) + "**";
+    std::string line;
     if (!row.other.empty() && row.has_figure())
     {
       line += " other: " + row.other + ".";
@@ -144,7 +144,10 @@ std::string to_text(const std::vector<Row>& rows)
     {
       line += " " + remark + ".";
     }
-    text += line + '\n';
+    if (!line.empty())
+    {
+      text += "- **" + std::to_string(row.number) + "**" + line + '\n';
+    }
   }
   return text;
 }
