@@ -45,14 +45,6 @@ if (BRUME_SANITIZE)
   add_link_options(-fsanitize=${BRUME_SANITIZE})
 endif ()
 
-# For folders of SIMD kernels, whose vectors are all locals: the address sanitizer does not look for what is
-# read after its scope there, without which a kernel takes 35 s to compile instead of 82.
-macro (brume_sanitize_kernels)
-  if (BRUME_SANITIZE)
-    add_compile_options(-fno-sanitize-address-use-after-scope)
-  endif ()
-endmacro ()
-
 find_program(BRUME_CCACHE ccache)
 if (BRUME_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${BRUME_CCACHE}")
