@@ -10,6 +10,12 @@ namespace
 {
 class TellSkipped : public testing::EmptyTestEventListener
 {
+  // UnitTest::current_test_info() would wait for the lock that is held while a result is told.
+  void OnTestStart(const testing::TestInfo& test) override
+  {
+    this->Name = std::string(test.test_suite_name()) + "." + test.name() + ": ";
+  }
+  void OnTestEnd(const testing::TestInfo&) override { this->Name.clear(); }
   void OnTestPartResult(const testing::TestPartResult& result) override
   {
     if (result.skipped())
@@ -19,11 +25,10 @@ class TellSkipped : public testing::EmptyTestEventListener
       {
         c = c == '\n' ? ' ' : c;
       }
-      const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-      std::cout << "skipped: " << (info ? std::string(info->test_suite_name()) + "." + info->name() + ": " : "")
-                << reason << std::endl;
+      std::cout << "skipped: " << this->Name << reason << std::endl;
     }
   }
+  std::string Name; ///< of the test that runs
 };
 }
 
