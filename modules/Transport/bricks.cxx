@@ -182,7 +182,7 @@ BrickRanges measure_bricks(const Grid& grid, int threads)
   }
   result.minimum.resize(result.size());
   result.maximum.resize(result.size());
-  tbb::task_arena& arena = thread_arena(threads);
+  ThreadArena arena(threads);
   arena.execute([&] { measure_type(grid, result); });
   const float lower = *std::min_element(result.minimum.begin(), result.minimum.end());
   const float upper = *std::max_element(result.maximum.begin(), result.maximum.end());

@@ -119,7 +119,7 @@ bool render_fog(const Scene& scene, Film& film, int threads, const Progress& pro
   };
 
   const int workers = threads > 0 ? threads : tbb::info::default_concurrency();
-  tbb::task_arena& arena = thread_arena(workers);
+  ThreadArena arena(workers);
   const int tiles = (film.height + tile_rows - 1) / tile_rows;
   std::atomic<int> done{ 0 };
   std::atomic<bool> aborted{ false };

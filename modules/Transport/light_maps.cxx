@@ -266,7 +266,7 @@ void LightMaps::run(SweepTask& task, int threads, const std::function<bool()>& g
   const int rows = task.dims[1] * (task.positional ? task.dims[2] : 1);
   const std::thread::id caller = std::this_thread::get_id();
   std::atomic<bool> ended{ false };
-  tbb::task_arena& arena = thread_arena(threads);
+  ThreadArena arena(threads);
   arena.execute(
     [&]
     {

@@ -404,7 +404,7 @@ MarchStatistics Marcher::render(
   film.clear();
   const int threads =
     settings.threads > 0 ? settings.threads : tbb::info::default_concurrency();
-  tbb::task_arena& arena = thread_arena(threads);
+  ThreadArena arena(threads);
   double step = settings.step;
   const bool by_cells = surfaces || scene.blend_mode == BlendMode::MaximumIntensity ||
                         scene.blend_mode == BlendMode::MinimumIntensity;

@@ -33,7 +33,7 @@ void PathNoise::in_bands(const std::function<void(int, int)>& work) const
   const int height = this->Behind.height;
   const std::thread::id caller = std::this_thread::get_id();
   std::atomic<bool> ended{ this->Ended };
-  thread_arena(this->Threads).execute(
+  ThreadArena(this->Threads).execute(
     [&]
     {
       tbb::parallel_for(0,

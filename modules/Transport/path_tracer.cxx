@@ -208,7 +208,7 @@ PathStatistics PathTracer::render(const Scene& scene,
     const int count = stretches * film.height;
     std::atomic<int> finished{ 0 };
     const auto done = [&] { return std::min(from + part * finished / count, 1.0); };
-    tbb::task_arena& arena = thread_arena(statistics.threads);
+    ThreadArena arena(statistics.threads);
     arena.execute(
       [&]
       {

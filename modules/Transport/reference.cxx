@@ -31,7 +31,7 @@ bool for_each_ray(const Scene& scene,
   const std::thread::id caller = std::this_thread::get_id();
   std::atomic<int> done{ 0 };
   std::atomic<bool> aborted{ false };
-  tbb::task_arena& arena = thread_arena(threads);
+  ThreadArena arena(threads);
   arena.execute(
     [&]
     {

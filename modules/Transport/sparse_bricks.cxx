@@ -288,7 +288,7 @@ BrickRanges measure_sparse_bricks(const SparseVoxels& voxels, int threads)
 
   Cubes cubes(result);
   std::atomic<std::size_t> non_finite{ 0 };
-  tbb::task_arena& arena = thread_arena(threads);
+  ThreadArena arena(threads);
   arena.execute(
     [&]
     {

@@ -91,7 +91,7 @@ SparseVoxels::SparseVoxels(VoxelType type,
     throw std::length_error(
       "the sparse grid would take " + std::to_string(pool_bytes >> 20) + " MiB");
   }
-  tbb::task_arena& arena = thread_arena(threads);
+  ThreadArena arena(threads);
   arena.execute(
     [&]
     {

@@ -3,14 +3,39 @@
 
 #include <tbb/task_arena.h>
 
+#include <memory>
+#include <utility>
+
 namespace brume
 {
 
-/// The arena of that many threads; 0 or less: as many as processors. Made when it is first asked
-/// for, and kept until the program ends: oneTBB 2021.8 does not give back some 7 KB of each arena
-/// that is made, and a window makes hundreds of pictures a minute. May be used from within
-/// itself. Of several threads that use it at once one may have its work done by another's thread, where its
-/// progress is not asked, and wait for the other's.
-tbb::task_arena& thread_arena(int threads);
+/// An arena of that many threads, which nobody else works in while this lives: execute() does its
+/// part of the work in the calling thread, and waits for nobody else's. Threads that render at once
+/// have one each.
+///
+/// Arenas are lent, and taken back when this ends: oneTBB 2021.8 does not give back some 7 KB of
+/// each arena that is made, and a window makes hundreds of pictures a minute. As many are made as
+/// are in use at once.
+class ThreadArena
+{
+public:
+  /// 0 or less: as many threads as processors.
+  explicit ThreadArena(int threads);
+  ~ThreadArena();
+  ThreadArena(const ThreadArena&) = delete;
+  ThreadArena& operator=(const ThreadArena&) = delete;
+
+  /// Runs `work` in the calling thread; what it splits (tbb::parallel_for) the arena's other
+  /// threads help with.
+  template <class Work>
+  void execute(Work&& work)
+  {
+    this->Arena->execute(std::forward<Work>(work));
+  }
+
+private:
+  int Threads;
+  std::unique_ptr<tbb::task_arena> Arena;
+};
 
 }
