@@ -157,7 +157,8 @@ void vtkBrumeFog::FillFog(brume::Fog& fog) const
 bool vtkBrumeFog::RenderFilm(vtkCamera* camera,
   vtkLightCollection* lights,
   brume::Film& film,
-  const std::vector<float>& surface_depth)
+  const std::vector<float>& surface_depth,
+  const std::function<bool(double)>& progress)
 {
   if (!camera || film.width <= 0 || film.height <= 0)
   {
@@ -181,7 +182,7 @@ bool vtkBrumeFog::RenderFilm(vtkCamera* camera,
       return false;
     }
     scene.surface_depth = surface_depth;
-    return brume::render_fog(scene, film, this->NumberOfThreads);
+    return brume::render_fog(scene, film, this->NumberOfThreads, progress);
   }
   catch (const std::invalid_argument& error)
   {

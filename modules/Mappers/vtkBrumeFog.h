@@ -39,8 +39,9 @@
 #include "vtkBrumeMappersModule.h"
 #include "vtkProp.h"
 
-#include <memory> // for std::unique_ptr
-#include <vector> // for std::vector
+#include <functional> // for std::function
+#include <memory>     // for std::unique_ptr
+#include <vector>     // for std::vector
 
 class vtkBrumeSky;
 class vtkCamera;
@@ -149,13 +150,15 @@ public:
   /**
    * Draws the fog alone, without a window: the camera's view, lit by `lights` (null: a headlight). The
    * film's size is the picture's. The fog ends at surfaces whose depth is given as
-   * vtkBrumeVolumeMapper::SetSurfaceDepth() takes it; empty: none. Returns false after a vtkErrorMacro
-   * where nothing was drawn.
+   * vtkBrumeVolumeMapper::SetSurfaceDepth() takes it; empty: none. `progress`, if there is one, is told the
+   * part that is done, in [0, 1], in the calling thread, and returns whether to go on. Returns false where
+   * it ended the render, and after a vtkErrorMacro where nothing was drawn.
    */
   bool RenderFilm(vtkCamera* camera,
     vtkLightCollection* lights,
     brume::Film& film,
-    const std::vector<float>& surface_depth = {});
+    const std::vector<float>& surface_depth = {},
+    const std::function<bool(double)>& progress = {});
 
   /**
    * The settings as Transport has them.
