@@ -14,6 +14,7 @@ class vtkBrumeFog;
 class vtkBrumeMedium;
 class vtkBrumeRayMarchMapper;
 class vtkBrumeSky;
+class vtkImageData;
 class vtkLightCollection;
 
 namespace CLI
@@ -144,8 +145,10 @@ vtkSmartPointer<vtkLightCollection> make_lights(const MediumOptions& options);
 vtkSmartPointer<vtkBrumeMedium> make_medium(const MediumOptions& options, const Triple& extinction);
 
 /// Sky, ground and environment, of which the last may take `max_memory` bytes (0: three quarters of the
-/// machine's). Throws Failure for an environment that cannot be read.
-vtkSmartPointer<vtkBrumeSky> make_sky(const MediumOptions& options, std::int64_t max_memory);
+/// machine's). `environment`: its picture, where it was read before; null reads it. Throws Failure for an
+/// environment that cannot be read.
+vtkSmartPointer<vtkBrumeSky> make_sky(const MediumOptions& options, std::int64_t max_memory,
+  vtkImageData* environment = nullptr);
 
 /// The fog, lit by this sky too; null for none.
 vtkSmartPointer<vtkBrumeFog> make_fog(const MediumOptions& options, vtkBrumeSky* sky);

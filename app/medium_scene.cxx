@@ -83,6 +83,22 @@ vtkSmartPointer<vtkLight> light_of(const LightChoice& choice)
   return light;
 }
 
+vtkSmartPointer<vtkImageData> read_environment(const std::string& path, std::int64_t max_memory)
+{
+  vtkNew<vtkBrumeEnvironmentReader> reader;
+  vtkNew<vtkCallbackCommand> ear; // in place of the standard error stream; GetErrorMessage tells
+  ear->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+  reader->AddObserver(vtkCommand::ErrorEvent, ear);
+  reader->SetFileName(path.c_str());
+  reader->SetMaximumMemory(max_memory);
+  reader->Update();
+  if (*reader->GetErrorMessage())
+  {
+    throw Failure(reader->GetErrorMessage());
+  }
+  return reader->GetOutput();
+}
+
 }
 
 vtkSmartPointer<vtkLightCollection> make_lights(const MediumOptions& o)
@@ -182,7 +198,8 @@ vtkSmartPointer<vtkBrumeMedium> make_medium(const MediumOptions& o, const Triple
   return medium;
 }
 
-vtkSmartPointer<vtkBrumeSky> make_sky(const MediumOptions& o, std::int64_t max_memory)
+vtkSmartPointer<vtkBrumeSky> make_sky(
+  const MediumOptions& o, std::int64_t max_memory, vtkImageData* environment)
 {
   if (!o.has_medium() && !o.has_fog())
   {
@@ -194,18 +211,8 @@ vtkSmartPointer<vtkBrumeSky> make_sky(const MediumOptions& o, std::int64_t max_m
   sky->SetUp(unit(o.up).data());
   if (!o.environment.empty())
   {
-    vtkNew<vtkBrumeEnvironmentReader> reader;
-    vtkNew<vtkCallbackCommand> ear; // in place of the standard error stream; GetErrorMessage tells
-    ear->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
-    reader->AddObserver(vtkCommand::ErrorEvent, ear);
-    reader->SetFileName(o.environment.c_str());
-    reader->SetMaximumMemory(max_memory);
-    reader->Update();
-    if (*reader->GetErrorMessage())
-    {
-      throw Failure(reader->GetErrorMessage());
-    }
-    sky->SetEnvironmentMap(reader->GetOutput());
+    sky->SetEnvironmentMap(
+      environment ? environment : read_environment(o.environment, max_memory).Get());
     sky->SetEnvironmentRotation(o.environment_rotation);
     sky->SetNumberOfEnvironmentLights(o.environment_lights);
   }

@@ -481,7 +481,11 @@ void update(VolumeScene& scene, const SceneOptions& options)
   settle(next.options);
   if (!same_sky(scene.options.medium, options.medium))
   {
-    next.sky = make_sky(options.medium, options.choice.max_memory);
+    const bool same_picture =
+      scene.sky && scene.options.medium.environment == options.medium.environment;
+    next.sky = make_sky(options.medium,
+      options.choice.max_memory,
+      same_picture ? scene.sky->GetEnvironmentMap() : nullptr);
   }
   give_light_and_matter(next);
   if (next.volume)
