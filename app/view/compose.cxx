@@ -182,33 +182,55 @@ Bitmap table_of(const Rows& rows, int width, int height, const Metrics& metrics)
   return canvas.bitmap();
 }
 
-Bitmap caption_of(const std::string& left,
-  const std::string& right,
-  int width,
-  int height,
-  const Metrics& metrics)
+namespace
+{
+
+struct CaptionStyles
+{
+  TextStyle left;
+  TextStyle right;
+  CaptionStyles(const Metrics& metrics, int size)
+    : left(text_style(metrics, palette::text, true))
+    , right(text_style(metrics, palette::quiet))
+  {
+    this->left.size = this->right.size = size;
+  }
+};
+
+}
+
+int caption_size(const Caption& caption, int width, const Metrics& metrics)
+{
+  const int inner = width - 2 * metrics.margin;
+  for (int size = metrics.text; size >= std::max(smallest_caption, metrics.text / 2); --size)
+  {
+    const CaptionStyles styles(metrics, size);
+    if (text_width(caption.left, styles.left) + 2 * metrics.margin +
+          text_width(caption.right, styles.right) <=
+        inner)
+    {
+      return size;
+    }
+  }
+  return 0;
+}
+
+Bitmap caption_of(const Caption& caption, int size, int width, int height, const Metrics& metrics)
 {
   Canvas canvas(width, height, palette::page);
   const int inner = std::max(width - 2 * metrics.margin, 0);
-  TextStyle name = text_style(metrics, palette::text, true);
-  TextStyle rest = text_style(metrics, palette::quiet);
-  const auto wanted = [&]
-  { return text_width(left, name) + 2 * metrics.margin + text_width(right, rest); };
-  while (wanted() > inner && name.size > std::max(smallest_caption, metrics.text / 2))
+  const CaptionStyles styles(metrics, size);
+  const int baseline = (height + size) / 2 - size / 8;
+  const std::string title = fitted(caption.left, styles.left, inner);
+  canvas.text(metrics.margin, baseline, title, styles.left);
+  const int room = inner - text_width(title, styles.left) - 2 * metrics.margin;
+  if (room > 4 * metrics.text || text_width(caption.right, styles.right) <= room)
   {
-    name.size = --rest.size;
-  }
-  if (wanted() > inner) // what is cut is cut in letters that are read well
-  {
-    name.size = rest.size = metrics.text;
-  }
-  const int baseline = (height + name.size) / 2 - name.size / 8;
-  const std::string title = fitted(left, name, inner);
-  canvas.text(metrics.margin, baseline, title, name);
-  const int room = inner - text_width(title, name) - 2 * metrics.margin;
-  if (room > 4 * metrics.text || text_width(right, rest) <= room)
-  {
-    canvas.text(width - metrics.margin, baseline, fitted(right, rest, room), rest, Align::Right);
+    canvas.text(width - metrics.margin,
+      baseline,
+      fitted(caption.right, styles.right, room),
+      styles.right,
+      Align::Right);
   }
   return canvas.bitmap();
 }

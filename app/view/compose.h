@@ -26,9 +26,19 @@ Bitmap page_of(const std::vector<std::string>& paragraphs, int width, int height
 Bitmap table_of(const std::vector<std::pair<std::string, std::string>>& rows, int width, int height,
   const Metrics& metrics);
 
-/// One line in a strip, what is more important to the left. In smaller letters where it does not fit, down to
-/// half the size, and then cut.
+/// One line in a strip, what is more important to the left.
+struct Caption
+{
+  std::string left;
+  std::string right;
+};
+
+/// The size of letters, in pixels, in which a caption fits a strip of that width: Metrics::text, or less, down to half
+/// of it; 0 where it does not fit then.
+int caption_size(const Caption& caption, int width, const Metrics& metrics);
+
+/// The strip, in letters of that size; what does not fit is cut.
 Bitmap caption_of(
-  const std::string& left, const std::string& right, int width, int height, const Metrics& metrics);
+  const Caption& caption, int size, int width, int height, const Metrics& metrics);
 
 }

@@ -262,6 +262,24 @@ double most_emitted(S s)
 // clang-format off: a table
 std::vector<Control> light_controls()
 {
+  Control irradiance = colour_control(
+    { "sun irradiance", { "sun-irradiance" }, "", light, linear, constant(0.0), constant(20.0),
+      [](S s)
+      {
+        const MediumOptions& m = s.options->medium;
+        return m.sun_direction ? std::optional<double>(brightness_of(m.sun_irradiance))
+                               : std::nullopt;
+      },
+      {}, of_composite },
+    [](S s) { return s.options->medium.sun_irradiance; }, Channels::Three, true,
+    [](J j, S s)
+    {
+      if (!s.options->medium.sun_direction)
+      {
+        set_sun(j, s, s.first_sun);
+      }
+    });
+  irradiance.put_in = { "sun-direction" };
   return {
     { "sun azimuth", { "sun-direction" }, "deg", light, linear, constant(-180.0), constant(180.0),
       [](S s)
@@ -283,23 +301,7 @@ std::vector<Control> light_controls()
         set_sun(j, s, { sun_of(s).azimuth, v });
       },
       of_composite, "Down", "Up" },
-    colour_control(
-      { "sun irradiance", { "sun-irradiance" }, "", light, linear, constant(0.0), constant(20.0),
-        [](S s)
-        {
-          const MediumOptions& m = s.options->medium;
-          return m.sun_direction ? std::optional<double>(brightness_of(m.sun_irradiance))
-                                 : std::nullopt;
-        },
-        {}, of_composite },
-      [](S s) { return s.options->medium.sun_irradiance; }, Channels::Three, true,
-      [](J j, S s)
-      {
-        if (!s.options->medium.sun_direction)
-        {
-          set_sun(j, s, s.first_sun);
-        }
-      }),
+    irradiance,
     colour_control(
       { "sky radiance", { "sky-radiance" }, "", light, linear, constant(0.0), constant(2.0), {}, {},
         of_composite },
@@ -308,6 +310,16 @@ std::vector<Control> light_controls()
       { "ground radiance", { "ground-radiance" }, "", light, linear, constant(0.0), constant(2.0),
         {}, {}, of_composite },
       [](S s) { return s.options->medium.ground_radiance; }, Channels::Three, false),
+    { "environment rotation", { "environment-rotation" }, "deg", light, linear, constant(-180.0),
+      constant(180.0),
+      [](S s)
+      {
+        // Any number of turns is as good as none.
+        return std::optional<double>(std::remainder(s.options->medium.environment_rotation, 360.0));
+      },
+      [](J j, S, double v) { j["environment-rotation"] = v; },
+      [](S s)
+      { return s.options->medium.environment.empty() ? "there is no environment" : of_composite(s); } },
     { "exposure", { "exposure" }, "stops", light, linear, constant(-8.0), constant(8.0),
       [](S s) { return std::optional<double>(s.exposure); },
       [](J j, S, double v) { j["exposure"] = v; }, always, "minus", "plus" },
@@ -349,7 +361,7 @@ std::vector<Control> scattering_controls()
     { "octaves", { "octaves" }, "", matter, ControlScale::Whole, constant(1.0), constant(16.0),
       of_medium([](const MediumOptions& m) { return m.octaves; }),
       [](J j, S, double v) { j["octaves"] = v; }, of_matter, "comma", "period" },
-    { "octave attenuation", { "octave-attenuation" }, "", matter, linear, constant(0.0),
+    { "octave attenuation", { "octave-attenuation", "octave-contribution" }, "", matter, linear, constant(0.0),
       constant(1.0),
       [](S s) { return std::optional<double>(s.options->medium.octave_attenuation); },
       [](J j, S s, double v)

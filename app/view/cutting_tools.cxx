@@ -203,12 +203,16 @@ void CuttingTools::hide()
   this->Internal->PlanePlaced = false;
 }
 
-void CuttingTools::follow(const Bounds& volume, const Bounds& now)
+void CuttingTools::follow(const Bounds& volume, const Bounds& now, bool plane_cuts)
 {
   Internals& in = *this->Internal;
   if (in.Box->GetEnabled() && (volume != in.BoxVolume || now != in.BoxNow))
   {
     in.place_box(volume, now);
+  }
+  if (in.Plane->GetEnabled() && !plane_cuts)
+  {
+    in.Plane->Off();
   }
   if (in.Plane->GetEnabled() && volume != in.PlaneVolume)
   {

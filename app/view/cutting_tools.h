@@ -39,8 +39,9 @@ public:
   /// Hides both, and forgets where they were.
   void hide();
   /// The volume may be another, and what is cropped may have been set elsewhere: what is shown goes along. A
-  /// plane that misses the volume comes back to it. Costs nothing while all is as it was.
-  void follow(const Bounds& volume, const Bounds& now);
+  /// plane that misses the volume comes back to it; one that cuts no more is hidden. Costs nothing while all
+  /// is as it was.
+  void follow(const Bounds& volume, const Bounds& now, bool plane_cuts);
 
   /// What is shown; none where it is hidden.
   ///@{

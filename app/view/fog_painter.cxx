@@ -64,25 +64,25 @@ public:
     }
     const int w = (width + this->Divisor - 1) / this->Divisor;
     const int h = (height + this->Divisor - 1) / this->Divisor;
-    if (!go(0.0))
+    if (!this->draw(w, h, true, go))
     {
       return false;
     }
-    this->draw(w, h, true);
     this->SecondsPerPixel = this->Shown.seconds / (double(w) * h);
     this->Shown.whole = this->Divisor == 1;
+    this->Shown.draft = true;
     this->Shown.state = "draft";
     return true;
   }
 
   bool refine(int width, int height, const KeepGoing& go) override
   {
-    if (this->Finished || !go(0.0))
+    if (this->Finished || !this->draw(width, height, false, go))
     {
       return false;
     }
-    this->draw(width, height, false);
     this->Shown.whole = this->Finished = true;
+    this->Shown.draft = false;
     this->Shown.state = "fog in closed form";
     return true;
   }
@@ -100,7 +100,8 @@ private:
     }
   }
 
-  void draw(int width, int height, bool draft)
+  /// False where `go` ended it.
+  bool draw(int width, int height, bool draft, const KeepGoing& go)
   {
     if (!is_own(this->Kind))
     {
@@ -108,14 +109,29 @@ private:
         "VTK's own mappers draw no fog",
         "see Brume's picture");
     }
+    if (!go(0.0))
+    {
+      return false;
+    }
     const auto start = std::chrono::steady_clock::now();
     this->Scene.options.resolution = { width, height };
     fit_clipping_range(this->Scene);
     const SurfacePicture surfaces = this->Meshes.draw(this->Scene, draft);
     const auto film = std::make_shared<Film>(width, height);
     this->Error.clear();
-    if (!this->Scene.fog->RenderFilm(this->Scene.camera, this->Scene.lights, *film, surfaces.depth))
+    bool ended = false;
+    const auto progress = [&](double done)
     {
+      ended = ended || !go(done);
+      return !ended;
+    };
+    if (!this->Scene.fog->RenderFilm(
+          this->Scene.camera, this->Scene.lights, *film, surfaces.depth, progress))
+    {
+      if (ended)
+      {
+        return false;
+      }
       throw Failure("--fog-extinction", "the fog cannot be drawn", words_of_vtk(this->Error));
     }
     this->Shown.picture = { width, height, over_scene(*film, this->Scene, surfaces) };
@@ -128,6 +144,7 @@ private:
     fog.reason = "the scene has fog, and no volume";
     fog.milliseconds = 1e3 * this->Shown.seconds;
     this->Shown.effects = { fog };
+    return true;
   }
 
   MapperKind Kind;

@@ -307,6 +307,7 @@ bool OwnPainter::draft(int width, int height, double seconds, const KeepGoing& g
   this->SecondsPerPixel =
     this->SecondsPerPixel > 0.0 ? 0.5 * (this->SecondsPerPixel + per_pixel) : per_pixel;
   this->Shown.whole = this->Divisor == 1;
+  this->Shown.draft = true;
   this->Shown.state = this->Divisor == 1 ? "draft"
                                          : "draft, a ray for " + std::to_string(this->Divisor) +
                                              " x " + std::to_string(this->Divisor) + " pixels";
@@ -328,6 +329,7 @@ bool OwnPainter::refine(int width, int height, const KeepGoing& go)
     this->Marched = true;
     this->Finished = this->Best == nullptr;
     this->Shown.whole = true;
+    this->Shown.draft = false;
     this->Shown.state = "ray march";
     return true;
   }

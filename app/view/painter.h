@@ -41,6 +41,7 @@ struct Shot
   std::vector<ShownEffect> effects;
   std::string failure;  ///< why there is no picture; empty where there is one
   bool whole = false;   ///< a ray for each pixel of the viewport
+  bool draft = false;   ///< made in haste: not for keeping, though it may be whole
 };
 
 /// Draws one scene with one mapper. The camera is the scene's, and may move between any two calls.

@@ -129,6 +129,42 @@ std::string Recording::finish()
   return this->Folder;
 }
 
+KeptTimeStep::KeptTimeStep(Viewer& viewer)
+  : View(viewer)
+  , Step(viewer.volume_scene().input.time_step)
+{
+}
+
+KeptTimeStep::~KeptTimeStep()
+{
+  try
+  {
+    this->View.go_to_time(this->Step);
+  }
+  catch (const std::exception& failure)
+  {
+    this->View.say(failure.what());
+  }
+}
+
+NoPause::NoPause(Viewer& viewer)
+  : View(viewer)
+  , Paused(viewer.paused())
+{
+  if (this->Paused)
+  {
+    this->View.pause(false);
+  }
+}
+
+NoPause::~NoPause()
+{
+  if (this->Paused)
+  {
+    this->View.pause(true);
+  }
+}
+
 struct KeptCamera::Internals
 {
   vtkCamera* Camera = nullptr;

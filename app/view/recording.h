@@ -39,6 +39,34 @@ private:
   int Count = 0;
 };
 
+/// Goes back to the time step that was shown; where that cannot be, the viewer says so.
+class KeptTimeStep
+{
+public:
+  explicit KeptTimeStep(Viewer& viewer);
+  ~KeptTimeStep();
+  KeptTimeStep(const KeptTimeStep&) = delete;
+  KeptTimeStep& operator=(const KeptTimeStep&) = delete;
+
+private:
+  Viewer& View;
+  int Step;
+};
+
+/// No pause of refinement while it lives; what was paused is paused again.
+class NoPause
+{
+public:
+  explicit NoPause(Viewer& viewer);
+  ~NoPause();
+  NoPause(const NoPause&) = delete;
+  NoPause& operator=(const NoPause&) = delete;
+
+private:
+  Viewer& View;
+  bool Paused;
+};
+
 /// Puts a camera back as it was.
 class KeptCamera
 {

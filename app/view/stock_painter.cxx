@@ -126,6 +126,7 @@ bool StockPainter::draft(int width, int height, double seconds, const KeepGoing&
   }
   this->SecondsOfWhole = this->Shown.seconds * this->Distance * this->Distance;
   this->Shown.whole = false;
+  this->Shown.draft = true;
   this->Shown.state = "draft";
   return true;
 }
@@ -138,6 +139,7 @@ bool StockPainter::refine(int width, int height, const KeepGoing& go)
   }
   this->Finished = true;
   this->Shown.whole = true;
+  this->Shown.draft = false;
   this->Shown.state = "whole";
   return true;
 }

@@ -26,6 +26,10 @@ Place place_of(vtkRenderWindowInteractor* interactor)
 
 bool ViewStyle::TakesPress(bool right_button)
 {
+  if (this->GetState() != VTKIS_NONE)
+  {
+    return true; // a button more does not change what the first one holds
+  }
   const Place place = place_of(this->Interactor);
   return this->Press &&
     this->Press(place.x, place.y, right_button, this->Interactor->GetRepeatCount() > 0);
@@ -33,7 +37,8 @@ bool ViewStyle::TakesPress(bool right_button)
 
 bool ViewStyle::TakesRelease()
 {
-  return this->Release && this->Release();
+  const bool taken = this->Release && this->Release();
+  return taken && this->GetState() == VTKIS_NONE; // else the camera must be told, too
 }
 
 bool ViewStyle::TakesWheel(int steps)

@@ -20,6 +20,7 @@
 
 #include <chrono>
 #include <exception>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -88,19 +89,21 @@ struct ViewWindow::Internals
   void start_timer() { this->set_timer(false); }
   bool flickers() const;
   void on_timer();
-  /// One better picture, unless the program is interrupted, or, with `heed`, the user does
-  /// something. Whether there was one.
-  bool refine_once(bool heed = true);
-  /// Refines all, whatever the user does but Ctrl-C.
-  void settle();
+  /// One better picture, unless the program is interrupted or `ends` says so, which is asked every
+  /// few milliseconds; `task`: what is told to be under way. Whether there was one.
+  bool refine_once(const std::function<bool()>& ends, const std::string& task = "refining");
+  /// Refines all, also what is paused, whatever the user does but Ctrl-C, or until `ends` says so.
+  /// False where it did. Throws Failure where a picture cannot be drawn.
+  bool settle(const std::function<bool()>& ends = {}, const std::string& task = "refining");
 
   // Keys
   void key(const std::string& symbol, bool control);
 
   // Records
   void save_screenshot(const std::string& path);
-  /// Whether Escape was pressed: it ends a recording, and not the window, too.
-  bool take_escape();
+  /// Shows what `step` sets, for each of its numbers below `count`, whole, and adds it to the recording;
+  /// Escape ends that, and not the window, too. Returns the recording's folder.
+  std::string record(const std::string& name, int count, const std::function<void(int)>& step);
   /// The pictures alone, without captions and panel.
   Bitmap pictures();
   std::string turntable(int pictures);

@@ -21,7 +21,7 @@ std::vector<std::pair<std::string, std::string>> ViewWindow::keys()
     { "k", "a plane to cut with" },
     { "q", "quit" },
     { "Mouse", "left turns, middle shifts, right or wheel comes nearer" },
-    { "Panel", "drag a bar; right click: as it was at first" } };
+    { "Panel", "drag a bar; right click: as at first; the wheel scrolls" } };
 }
 
 void ViewWindow::Internals::key(const std::string& symbol, bool control)
@@ -55,15 +55,18 @@ void ViewWindow::Internals::key(const std::string& symbol, bool control)
     this->try_to(
       [&]
       {
+        this->show(); // what is there may be of the scene before
         const Shot& shot = this->View.shot(0);
         if (!shot.film)
         {
           throw Failure("EXR", "VTK's mappers make no film", "show one of Brume's first");
         }
-        while (!shot.whole && this->refine_once(false))
+        const NoPause no_pause(this->View);
+        const auto good = [&shot] { return shot.whole && !shot.draft; };
+        while (!good() && this->refine_once({}))
         {
         }
-        if (!shot.whole)
+        if (!good())
         {
           throw Failure("EXR", "there is no whole picture", "see the viewport");
         }

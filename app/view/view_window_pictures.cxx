@@ -1,5 +1,7 @@
 #include "view_window_internals.h"
 
+#include "recording.h"
+
 #include "command.h"
 #include "interruption.h"
 
@@ -71,8 +73,14 @@ void ViewWindow::Internals::present(bool always)
     ~Guard() { flag = false; }
   } const guard{ this->Presenting };
   const VolumeScene& scene = this->View.volume_scene();
+  const bool cuts =
+    this->OwnPlane && *this->OwnPlane < scene.options.modes.clipping_planes.size();
+  if (!cuts)
+  {
+    this->OwnPlane.reset(); // it was taken out of the scene
+  }
   this->Tools.follow(
-    scene.bounds(), scene.options.modes.cropping.value_or(scene.bounds()));
+    scene.bounds(), scene.options.modes.cropping.value_or(scene.bounds()), cuts);
   // Until other mappers have a picture the window keeps the one before.
   if (this->View.has_pictures() || !this->View.stale())
   {
@@ -130,7 +138,7 @@ void ViewWindow::Internals::on_timer()
   {
     if (this->Style->GetState() == VTKIS_NONE || seconds_since(this->LastAnswer) > still_seconds)
     {
-      this->refine_once();
+      this->refine_once([this] { return this->input_waits(); });
     }
   }
   else if (!this->flickers())
@@ -139,7 +147,8 @@ void ViewWindow::Internals::on_timer()
   }
 }
 
-bool ViewWindow::Internals::refine_once(bool heed)
+bool ViewWindow::Internals::refine_once(
+  const std::function<bool()>& ends, const std::string& task)
 {
   RefinementWatch watch;
   const KeepGoing go = [&](double done)
@@ -148,14 +157,14 @@ bool ViewWindow::Internals::refine_once(bool heed)
     {
       return !watch.asked_to_end();
     }
-    watch.look((heed && this->input_waits()) || InterruptionWatch::requested());
+    watch.look((ends && ends()) || InterruptionWatch::requested());
     // VTK's mappers tell nothing, and another window must not be drawn while they draw.
     if (!watch.asked_to_end() && done > 0.0 && watch.age() > 0.3 &&
         seconds_since(this->LastTold) > told_every)
     {
       this->LastTold = Clock::now();
       this->View.tell_progress(
-        "refining: " + std::to_string(static_cast<int>(100.0 * done)) + " %");
+        task + ": " + std::to_string(static_cast<int>(100.0 * done)) + " %");
       this->present();
     }
     return !watch.asked_to_end();
@@ -170,19 +179,24 @@ bool ViewWindow::Internals::refine_once(bool heed)
   return better;
 }
 
-void ViewWindow::Internals::settle()
+bool ViewWindow::Internals::settle(const std::function<bool()>& ends, const std::string& task)
 {
-  this->View.go_on();
+  const NoPause no_pause(this->View);
   this->show();
   while (!this->View.finished())
   {
-    const bool better = this->refine_once(false);
+    const bool better = this->refine_once(ends, task);
     InterruptionWatch::check("view");
+    if (ends && ends())
+    {
+      return false;
+    }
     if (!better && !this->View.finished())
     {
       throw Failure("view", "a picture could not be finished", "see its viewport");
     }
   }
+  return true;
 }
 
 void ViewWindow::show()

@@ -15,18 +15,13 @@ namespace brume::app
 
 void ViewWindow::Internals::save_screenshot(const std::string& path)
 {
-  this->present();
+  this->show();
   const int* size = this->Window->GetSize();
   vtkNew<vtkUnsignedCharArray> bytes;
   this->Window->GetPixelData(0, 0, size[0] - 1, size[1] - 1, 0, bytes);
   Bitmap bitmap{ size[0], size[1], {} };
   bitmap.rgb.assign(bytes->GetPointer(0), bytes->GetPointer(0) + bytes->GetNumberOfValues());
   save_png(bitmap, path);
-}
-
-bool ViewWindow::Internals::take_escape()
-{
-  return brume::app::take_escape(this->Window->GetGenericDisplayId());
 }
 
 Bitmap ViewWindow::Internals::pictures()
@@ -42,22 +37,46 @@ Bitmap ViewWindow::Internals::pictures()
   return joined(tiles);
 }
 
+std::string ViewWindow::Internals::record(const std::string& name,
+  int count,
+  const std::function<void(int)>& step)
+{
+  Recording recording(this->Set.folder, name);
+  bool ended = false;
+  const auto escape = [&]
+  {
+    ended = take_escape(this->Window->GetGenericDisplayId()) || ended;
+    return ended;
+  };
+  for (int i = 0; i < count && !escape(); ++i)
+  {
+    step(i);
+    const std::string task =
+      name + " " + std::to_string(i) + " of " + std::to_string(count) + ", Escape ends it";
+    this->View.say(task);
+    if (this->settle(escape, task))
+    {
+      recording.add(this->pictures());
+    }
+  }
+  escape(); // one that came too late is not to close the window
+  return recording.finish();
+}
+
 std::string ViewWindow::Internals::turntable(int pictures)
 {
-  Recording recording(this->Set.folder, "turntable");
   const KeptCamera kept(this->View.camera());
-  for (int i = 0; i < pictures && !this->take_escape(); ++i)
-  {
-    this->View.say(
-      "turntable: " + std::to_string(i) + " of " + std::to_string(pictures) + ", Escape ends it");
-    this->settle();
-    recording.add(this->pictures());
-    this->View.camera()->Azimuth(360.0 / pictures);
-    this->View.camera()->OrthogonalizeViewUp();
-    this->View.camera_moved();
-  }
-  this->take_escape(); // it came too late, and is not to close the window
-  return recording.finish();
+  return this->record("turntable",
+    pictures,
+    [&](int i)
+    {
+      if (i > 0)
+      {
+        this->View.camera()->Azimuth(360.0 / pictures);
+        this->View.camera()->OrthogonalizeViewUp();
+        this->View.camera_moved();
+      }
+    });
 }
 
 std::string ViewWindow::Internals::series()
@@ -67,19 +86,8 @@ std::string ViewWindow::Internals::series()
   {
     throw Failure("series", "the input has one time step", "open a series over time");
   }
-  const int before = this->View.volume_scene().input.time_step;
-  Recording recording(this->Set.folder, "series");
-  for (int i = 0; i < count && !this->take_escape(); ++i)
-  {
-    this->View.go_to_time(i);
-    this->View.say(
-      "series: " + std::to_string(i) + " of " + std::to_string(count) + ", Escape ends it");
-    this->settle();
-    recording.add(this->pictures());
-  }
-  this->View.go_to_time(before);
-  this->take_escape(); // it came too late, and is not to close the window
-  return recording.finish();
+  const KeptTimeStep kept(this->View);
+  return this->record("series", count, [this](int i) { this->View.go_to_time(i); });
 }
 
 void ViewWindow::save_screenshot(const std::string& path)

@@ -100,6 +100,7 @@ void Viewer::take(const ordered_json& scene)
   this->Values.reset();
   this->Figures.clear();
   this->Hold = Held::Nothing;
+  this->BeforeDrag.reset();
   this->Hand = {};
   this->choose_point(-1);
   this->read_function();
@@ -210,6 +211,7 @@ void Viewer::set(ordered_json scene)
     update(this->Volume, parsed.options());
     this->Parsed = parsed;
     this->Scene = scene;
+    this->BeforeDrag.reset();
     this->Hint.clear();
   }
   catch (const std::exception& failure)
@@ -272,6 +274,7 @@ bool Viewer::has_pictures() const
 void Viewer::draft(const KeepGoing& go, const std::function<void()>& drawn)
 {
   const bool first = !this->has_pictures();
+  this->Stale = false; // what changes while pictures are drawn marks it again
   fit_clipping_range(this->Volume);
   const Box& box = this->Boxes.pictures.front();
   const double seconds = this->Set.draft_seconds / static_cast<double>(this->Panes.size());
@@ -281,14 +284,20 @@ void Viewer::draft(const KeepGoing& go, const std::function<void()>& drawn)
       this->draw(pane, [&](Painter& p) { return p.draft(box.width, box.height, seconds, go); });
     if (!done && pane.failure.empty())
     {
-      return; // ended: what ended it asks for another
+      this->Stale = true; // what ended it asks for another
+      return;
     }
     if (first && drawn && &pane == &this->Panes.front() && this->Panes.size() > 1)
     {
       drawn();
     }
   }
-  this->Stale = false;
+}
+
+void Viewer::pause(bool paused)
+{
+  this->Paused = paused;
+  this->PanelChanged = true;
 }
 
 bool Viewer::finished() const

@@ -2,6 +2,7 @@
 // the mouse do to them. Needs no display for Brume's own mappers.
 #pragma once
 
+#include "compose.h"
 #include "controls.h"
 #include "layout.h"
 #include "painter.h"
@@ -130,8 +131,11 @@ public:
   void say(const std::string& hint);
   /// What is under way, in place of that line while it is not empty.
   void tell_progress(const std::string& progress);
-  /// Whether refinement is paused by its key, and goes on.
-  void go_on() { this->Paused = false; }
+  /// Whether refinement waits, as after its key.
+  ///@{
+  bool paused() const { return this->Paused; }
+  void pause(bool paused);
+  ///@}
 
 private:
   struct Pane
@@ -166,6 +170,7 @@ private:
   void choose_point(int index);
   FunctionPoint point_under(int x, int y);
   void show_picker(const HotSpot& swatch);
+  bool picker_is_above(int index) const; ///< of that control's row
   void press_curve(const HotSpot& spot, int x, bool right_button, bool twice, int y);
   void press_colours(const HotSpot& spot, int x, bool right_button, bool twice);
   void drag_control(int x);
@@ -186,6 +191,7 @@ private:
   std::string caption(const Pane& pane) const;
   Bitmap bitmap_of(const Pane& pane) const;
   void tile_pictures();
+  void put_captions(const std::vector<Caption>& captions); ///< one a viewport
   void tile_panel();
   void put(std::size_t index, const Box& box, Bitmap bitmap, bool picture);
 
@@ -231,7 +237,15 @@ private:
   };
   Held Hold = Held::Nothing;
   HotSpot HeldSpot;
-  Triple HeldColour{ 1.0, 1.0, 1.0 }; ///< whose brightness is dragged: it must not be lost at 0
+  Triple HeldColour{ 1.0, 1.0, 1.0 }; ///< of a point: its brightness is dragged, and its hue must stay at 0
+  /// The scene as it was when a bar was taken. Each place of the bar is set in that one, so that what
+  /// hangs on a value comes back with it. Empty once anything else changed the scene.
+  struct DragStart
+  {
+    nlohmann::ordered_json scene;
+    SceneOptions options;
+  };
+  std::shared_ptr<const DragStart> BeforeDrag;
   int HeldOffset = 0;                 ///< from the scroll bar's thumb to the hand
 };
 

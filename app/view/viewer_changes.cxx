@@ -106,18 +106,24 @@ void Viewer::turn_sun(int x, int y)
 
 void Viewer::turn(const Control& control, double place)
 {
-  const ControlScene now = this->control_scene();
-  const double value = value_at(control, now, place);
+  ControlScene from = this->control_scene();
   ordered_json scene = this->Scene;
-  if (this->Hold == Held::Control && control.colour)
+  if (this->Hold != Held::Control)
   {
-    control.set_colour(scene, now, with_brightness(this->HeldColour, value));
+    control.set(scene, from, value_at(control, from, place));
+    this->set(scene);
+    return;
   }
-  else
+  if (!this->BeforeDrag)
   {
-    control.set(scene, now, value);
+    this->BeforeDrag = std::make_shared<const DragStart>(DragStart{ scene, this->Volume.options });
   }
+  const std::shared_ptr<const DragStart> start = this->BeforeDrag; // set() ends it
+  from.options = &start->options;
+  scene = start->scene;
+  control.set(scene, from, value_at(control, from, place));
   this->set(scene);
+  this->BeforeDrag = start;
 }
 
 void Viewer::restore(const Control& control)
@@ -129,6 +135,13 @@ void Viewer::restore(const Control& control)
     if (this->First.contains(key))
     {
       scene[key] = this->First[key];
+    }
+  }
+  for (const std::string& key : control.put_in)
+  {
+    if (!this->First.contains(key))
+    {
+      scene.erase(key);
     }
   }
   this->set(scene);

@@ -81,8 +81,7 @@ const std::vector<Viewer::Action>& Viewer::actions()
       "pause refinement, and go on",
       [](Viewer& v)
       {
-        v.Paused = !v.Paused;
-        v.PanelChanged = true;
+        v.pause(!v.Paused);
         v.say("");
       } },
     { "l", "sun on, or all light and matter off", [](Viewer& v) { v.switch_light(); } },

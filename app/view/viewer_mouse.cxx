@@ -10,6 +10,7 @@ namespace brume::app
 bool Viewer::press(int x, int y, bool right_button, bool twice)
 {
   this->Hold = Held::Nothing;
+  this->BeforeDrag.reset();
   if (this->Help)
   {
     return this->key("question");
@@ -61,11 +62,6 @@ bool Viewer::press_panel(int x, int y, bool right_button, bool twice)
       if (spot.index == HotSpot::chosen_point)
       {
         this->HeldColour = this->chosen_colour();
-      }
-      else if (const Control& control = controls()[static_cast<std::size_t>(spot.index)];
-               control.colour)
-      {
-        this->HeldColour = control.colour(this->control_scene());
       }
       this->drag_control(x);
       break;
@@ -119,20 +115,34 @@ void Viewer::show_picker(const HotSpot& swatch)
     this->Picker.reset();
     return;
   }
-  // One at a time; those above this row give way.
   const Metrics metrics(this->Set.scale);
-  int bottom = swatch.box.y + metrics.row + picker_height(metrics);
-  for (const HotSpot& spot : this->Panel.spots)
+  const int height = picker_height(metrics);
+  int& scroll = this->Scrolls[static_cast<std::size_t>(this->Page)];
+  int bottom = swatch.box.y + metrics.row + height;
+  if (this->picker_is_above(swatch.index))
   {
-    if (spot.kind == HotSpot::Kind::Picker && spot.box.y < swatch.box.y)
-    {
-      bottom -= picker_height(metrics);
-    }
+    // One at a time: that one goes, and this row stays under the hand as far as the page allows.
+    const int scrolled = std::min(height, scroll);
+    scroll -= scrolled;
+    bottom += scrolled - height;
   }
   this->Picker = swatch.index;
   const Box& page = this->Panel.page;
-  int& scroll = this->Scrolls[static_cast<std::size_t>(this->Page)];
   scroll += std::max(bottom - page.y - page.height, 0);
+}
+
+bool Viewer::picker_is_above(int index) const
+{
+  if (!this->Picker || *this->Picker >= index)
+  {
+    return false;
+  }
+  if (*this->Picker == HotSpot::chosen_point)
+  {
+    return this->Page == ControlPage::Look;
+  }
+  const Control& control = controls()[static_cast<std::size_t>(*this->Picker)];
+  return control.page == this->Page && control.inapplicable(this->control_scene()).empty();
 }
 
 void Viewer::press_curve(const HotSpot& spot, int x, bool right_button, bool twice, int y)
@@ -300,6 +310,7 @@ bool Viewer::release()
 {
   const bool held = this->Hold != Held::Nothing;
   this->Hold = Held::Nothing;
+  this->BeforeDrag.reset();
   this->PanelChanged = this->PanelChanged || held;
   return held;
 }
@@ -309,6 +320,10 @@ bool Viewer::wheel(int x, int y, int steps)
   if (this->Help || !this->Boxes.panel.contains(x, y))
   {
     return this->Help;
+  }
+  if (this->Hold != Held::Nothing)
+  {
+    return true; // what is held must not go from under the hand
   }
   int& scroll = this->Scrolls[static_cast<std::size_t>(this->Page)];
   const int by = 3 * Metrics(this->Set.scale).line * steps;

@@ -216,25 +216,18 @@ void Viewer::tile_pictures()
   if (!this->compares())
   {
     this->Tiles.resize(2 * this->Panes.size());
+    std::vector<Caption> captions;
     for (std::size_t i = 0; i < this->Panes.size(); ++i)
     {
-      const Box& strip = this->Boxes.captions[i];
       this->put(2 * i, this->Boxes.pictures[i], this->bitmap_of(this->Panes[i]), true);
-      this->put(2 * i + 1,
-        strip,
-        caption_of(title_of(this->Panes[i].kind),
-          this->caption(this->Panes[i]),
-          strip.width,
-          strip.height,
-          metrics),
-        false);
+      captions.push_back({ title_of(this->Panes[i].kind), this->caption(this->Panes[i]) });
     }
+    this->put_captions(captions);
     return;
   }
   this->Tiles.resize(2);
   const Pane& one = this->Panes[0];
   const Pane& two = this->Panes[1];
-  const Box& strip = this->Boxes.captions.front();
   std::string names = title_of(one.kind);
   std::string figures;
   if (this->Set.arrangement == Arrangement::Flicker)
@@ -251,8 +244,8 @@ void Viewer::tile_pictures()
            one.painter->shot().picture.rgb.empty() || two.painter->shot().picture.rgb.empty())
   {
     // What failed says why; of two that are being drawn the first has its picture first.
-    const bool second = one.failure.empty() &&
-                        (!two.failure.empty() || one.painter->shot().picture.rgb.empty());
+    const bool second =
+      one.failure.empty() && (!two.failure.empty() || one.painter->shot().picture.rgb.empty());
     this->put(0, box, this->bitmap_of(second ? two : one), true);
   }
   else if (this->Set.arrangement == Arrangement::Wipe)
@@ -290,7 +283,25 @@ void Viewer::tile_pictures()
     names += std::string(" - ") + title_of(two.kind);
     figures = difference_label(difference.kind, difference.gain);
   }
-  this->put(1, strip, caption_of(names, figures, strip.width, strip.height, metrics), false);
+  this->put_captions({ { names, figures } });
+}
+
+void Viewer::put_captions(const std::vector<Caption>& captions)
+{
+  // All in the letters of the longest that fits; what is cut is cut in letters that are read well.
+  const Metrics metrics(this->Set.scale);
+  int size = metrics.text;
+  for (std::size_t i = 0; i < captions.size(); ++i)
+  {
+    const int fits = caption_size(captions[i], this->Boxes.captions[i].width, metrics);
+    size = fits > 0 ? std::min(size, fits) : size;
+  }
+  for (std::size_t i = 0; i < captions.size(); ++i)
+  {
+    const Box& strip = this->Boxes.captions[i];
+    this->put(
+      2 * i + 1, strip, caption_of(captions[i], size, strip.width, strip.height, metrics), false);
+  }
 }
 
 void Viewer::tile_panel()

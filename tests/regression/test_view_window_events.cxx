@@ -352,3 +352,32 @@ TEST(ViewWindowEvents, EscapeEndsATurntableAndNotTheWindow)
   EXPECT_GE(pictures(), 2u);
   EXPECT_LT(pictures(), 90u);
 }
+
+// Also in the middle of a picture that would take minutes.
+TEST(ViewWindowEvents, EscapeEndsATurntableWithinAPicture)
+{
+  const std::string folder = BRUME_TEST_OUTPUT "/view-window-long-turntable";
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  ordered_json scene = slow_scene();
+  scene["tolerance"] = 1e-4;
+  RunningWindow running(scene, 660, 424, folder);
+  running.TheViewer.key("p"); // path tracing
+  Clock::time_point pressed;
+  running.run(
+    [&](x_events::Sender& x)
+    {
+      running.wait_for([](const auto&) { return true; });
+      x.key("F4");
+      sleep(3.0);
+      pressed = Clock::now();
+      x.key("Escape");
+      sleep(0.3);
+    });
+  EXPECT_LT(seconds_between(pressed, Clock::now()), 0.3 + soon);
+  ASSERT_FALSE(fs::is_empty(folder)) << "the turntable was not begun";
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+  {
+    EXPECT_NE(entry.path().extension(), ".png") << "a picture that is not whole was kept";
+  }
+}

@@ -528,6 +528,12 @@ TEST(Viewer, SurfacesInFogNeedNoVolume)
   const brume::Picture before = viewer.shot(0).picture;
   EXPECT_TRUE(viewer.shot(1).picture.rgb.empty()); // VTK's mappers say why instead
   EXPECT_LE(difference(before, expected()), 1e-3);
+  // Whoever does something ends it within a picture.
+  viewer.camera_moved();
+  viewer.draft(go_on);
+  EXPECT_FALSE(viewer.refine([](double done) { return done <= 0.0; }));
+  EXPECT_FALSE(viewer.finished());
+  EXPECT_TRUE(viewer.refine(go_on));
   // All that is pressed and keyed does something or nothing, and the fog stays.
   const Box panel = viewer.tiles().back().box;
   for (int page = 0; page < 4; ++page)
@@ -546,7 +552,7 @@ TEST(Viewer, SurfacesInFogNeedNoVolume)
     viewer.key(name);
   }
   viewer.key("BackSpace");
-  viewer.go_on();
+  viewer.pause(false);
   viewer.reset_camera();
   finish(viewer);
   const brume::Picture thin = viewer.shot(0).picture;

@@ -1,6 +1,6 @@
 // The panel of `brume view`: that all of it can be reached, and what its colours, lobes and points
 // set.
-#include "view_support.h"
+#include "panel_support.h"
 
 #include "private_display.h"
 
@@ -17,102 +17,6 @@
 #include <algorithm>
 #include <random>
 #include <set>
-
-namespace
-{
-
-/// A density with all that has controls of its own.
-ordered_json rich_scene()
-{
-  return { { "input", ball_file() },
-    { "quiet", true },
-    { "extinction", 0.002 },
-    { "sun-direction", { 1.0, -1.0, 1.0 } },
-    { "phase", "hg:0.8:0.7,hg:-0.2:0.3" },
-    { "octaves", 3 },
-    { "silver-lining", 0.5 },
-    { "powder", 0.5 },
-    { "fog-extinction", 0.001 },
-    { "tolerance", 0.05 } };
-}
-
-/// The first place of that kind on the panel as it is shown, in the window; −1, −1 where there is
-/// none.
-struct Place
-{
-  int x = -1;
-  int y = -1;
-};
-Place place_of_spot(Viewer& viewer,
-  HotSpot::Kind kind,
-  int index,
-  double across = 0.5,
-  double down = 0.5)
-{
-  viewer.tiles();
-  const Box panel = viewer.tiles().back().box;
-  for (const HotSpot& spot : viewer.panel().spots)
-  {
-    if (spot.kind == kind && spot.index == index)
-    {
-      return { panel.x + spot.box.x + static_cast<int>(std::lround(across * (spot.box.width - 1))),
-        panel.y + spot.box.y + static_cast<int>(std::lround(down * (spot.box.height - 1))) };
-    }
-  }
-  return {};
-}
-
-void click(Viewer& viewer, const Place& place, bool right = false, bool twice = false)
-{
-  ASSERT_GE(place.x, 0);
-  EXPECT_TRUE(viewer.press(place.x, place.y, right, twice));
-  viewer.release();
-  viewer.tiles();
-}
-
-int index_of(const std::string& name)
-{
-  for (std::size_t i = 0; i < controls().size(); ++i)
-  {
-    if (name == controls()[i].name)
-    {
-      return static_cast<int>(i);
-    }
-  }
-  ADD_FAILURE() << name;
-  return 0;
-}
-
-void show_page(Viewer& viewer, ControlPage page)
-{
-  click(viewer, place_of_spot(viewer, HotSpot::Kind::Page, static_cast<int>(page)));
-}
-
-/// Turns the wheel until the place can be pressed.
-Place scrolled_to(Viewer& viewer,
-  HotSpot::Kind kind,
-  int index,
-  double across = 0.5,
-  double down = 0.5)
-{
-  const Box panel = viewer.tiles().back().box;
-  viewer.wheel(panel.x + 5, panel.height / 2, 1000);
-  for (int i = 0; i < 200; ++i)
-  {
-    const Place place = place_of_spot(viewer, kind, index, across, down);
-    const HotSpot* at =
-      place.x < 0 ? nullptr : viewer.panel().at(place.x - panel.x, place.y - panel.y);
-    if (at && at->kind == kind && at->index == index)
-    {
-      return place;
-    }
-    viewer.wheel(panel.x + 5, panel.height / 2, -1);
-  }
-  ADD_FAILURE() << "not reached: " << static_cast<int>(kind) << ", " << index;
-  return {};
-}
-
-}
 
 TEST(Tint, IsTheColourAgain)
 {
@@ -558,7 +462,7 @@ TEST(CuttingTools, FollowTheVolume)
   const CuttingTools::Bounds first{ 0, 10, 0, 20, 0, 30 };
   const CuttingTools::Bounds second{ -5, 5, 10, 40, 0, 12 };
   const CuttingTools::Bounds cut{ 1, 4, 12, 30, 2, 9 };
-  tools.follow(first, first); // hidden: nothing
+  tools.follow(first, first, true); // hidden: nothing
   EXPECT_FALSE(tools.box() || tools.plane());
   const auto near =
     [](const std::optional<CuttingTools::Bounds>& box, const CuttingTools::Bounds& is)
@@ -571,9 +475,9 @@ TEST(CuttingTools, FollowTheVolume)
   };
   tools.switch_box(interactor, renderer, first, first);
   near(tools.box(), first);
-  tools.follow(second, second);
+  tools.follow(second, second, true);
   near(tools.box(), second);
-  tools.follow(second, cut);
+  tools.follow(second, cut, true);
   near(tools.box(), cut);
   EXPECT_EQ(boxed, 0); // the hand tells, not this
   tools.switch_box(interactor, renderer, second, cut);
@@ -585,7 +489,7 @@ TEST(CuttingTools, FollowTheVolume)
   const CuttingTools::Plane middle{ 0, 1, 0, -10 };
   EXPECT_EQ(planes[0], middle);
   const CuttingTools::Bounds wider{ -100, 10, -50, 90, 0, 3 };
-  tools.follow(wider, wider);
+  tools.follow(wider, wider, true);
   ASSERT_TRUE(tools.plane());
   for (std::size_t i = 0; i < 4; ++i)
   {
@@ -593,9 +497,13 @@ TEST(CuttingTools, FollowTheVolume)
   }
   EXPECT_EQ(planes.size(), 1u); // it cuts as before
   const CuttingTools::Bounds beyond{ 0, 10, 30, 50, 0, 30 };
-  tools.follow(beyond, beyond);
+  tools.follow(beyond, beyond, true);
   ASSERT_EQ(planes.size(), 2u); // it had missed the volume
   EXPECT_NEAR(planes[1][3], -30.0, 1e-6);
+  tools.follow(beyond, beyond, false); // it was taken out of the scene
+  EXPECT_FALSE(tools.plane());
+  tools.switch_plane(interactor, renderer, beyond);
+  EXPECT_TRUE(tools.plane());
   tools.hide();
   EXPECT_FALSE(tools.plane());
 }
