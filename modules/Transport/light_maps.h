@@ -4,6 +4,7 @@
 
 #include "Transport/lit_task.h"
 #include "Transport/march_task.h"
+#include "Transport/raw_array.h"
 #include "Transport/scene.h"
 
 #include <cstddef>
@@ -20,8 +21,8 @@ struct LightLattice
   int dims[3] = { 0, 0, 0 };
   glm::dmat4 node_from_world{ 1.0 };
   std::vector<double> key; ///< what it was made of
-  std::vector<std::uint16_t> words[6];
-  std::vector<float> floats[6];
+  RawArray<std::uint16_t> words[6];
+  RawArray<float> floats[6];
   float scale = 1.0f;
 
   std::size_t bytes() const;

@@ -6,6 +6,20 @@
 namespace brume
 {
 
+bool PathSums::clear(std::size_t pixels, const std::function<bool()>& go)
+{
+  for (std::vector<double>* values : { &this->sums, &this->squares, &this->groups, &this->open })
+  {
+    values->assign(3 * pixels, 0.0);
+    if (!go())
+    {
+      return false;
+    }
+  }
+  this->samples.assign(pixels, 0);
+  return true;
+}
+
 void PathSums::add(std::size_t pixel, const glm::dvec3& radiance)
 {
   constexpr int strata = RandomStream::strata;

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace brume
@@ -33,6 +34,9 @@ struct PathSums
   {
   }
 
+  /// So many pixels without paths, in the memory that there is. `go` is asked between its parts, as large
+  /// films take tens of milliseconds; false where it ended that.
+  bool clear(std::size_t pixels, const std::function<bool()>& go);
   /// The next path of a pixel.
   void add(std::size_t pixel, const glm::dvec3& radiance);
   /// The variance of its paths, as that of their mean times their number is: by groups when there

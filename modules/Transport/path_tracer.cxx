@@ -90,12 +90,17 @@ struct PathTracer::Kept
   PathSums Paths;
   Film Behind; ///< transmittance and depth
 
-  void begin(const Film& film)
+  /// False where `go` ended it.
+  bool begin(const Film& film, const std::function<bool()>& go)
   {
     this->Width = 0; // until there is something to go on from
     this->Height = 0;
-    this->Paths = PathSums(film.size());
+    if (!this->Paths.clear(film.size(), go))
+    {
+      return false;
+    }
     this->Behind = Film(film.width, film.height);
+    return go();
   }
   bool fits(const Film& film) const
   {
@@ -142,7 +147,11 @@ PathStatistics PathTracer::render(const Scene& scene,
   }
   if (!settings.resume || !kept.fits(film))
   {
-    kept.begin(film);
+    const auto go = [&] { return !progress || progress(0.0); };
+    if (!go() || !kept.begin(film, go))
+    {
+      return statistics;
+    }
     MarchSettings march;
     march.leave_error = 1e-5;
     march.threads = settings.threads;
@@ -155,7 +164,7 @@ PathStatistics PathTracer::render(const Scene& scene,
     march.step = march.rule == StepRule::Cells ? smallest_voxel_edge(scene) : step;
     const bool whole =
       kept.Absorption
-        .render(dark, march, kept.Behind, [&](double) { return !progress || progress(0.0); })
+        .render(dark, march, kept.Behind, [&](double) { return go(); })
         .completed;
     if (!whole)
     {

@@ -141,6 +141,12 @@ void add_view_rows(Scenes& scenes, std::vector<Row>& rows)
     }
     return scene;
   };
+  const auto paths = [cloud]
+  {
+    ordered_json scene = cloud();
+    scene["samples-per-pixel"] = 16; // paths begin and go on once
+    return scene;
+  };
   const std::vector<Look> looks{
     { "brain", "brain scan", brain, { MapperKind::RayMarch } },
     { "beside",
@@ -148,6 +154,7 @@ void add_view_rows(Scenes& scenes, std::vector<Row>& rows)
       brain,
       { MapperKind::RayMarch, MapperKind::FixedPoint } },
     { "cloud", "cloud in the sun", cloud, { MapperKind::RayMarch } },
+    { "paths", "cloud in the sun, paths", paths, { MapperKind::PathTrace } },
   };
   for (const Look& look : looks)
   {
