@@ -187,8 +187,8 @@ void add_matter_options(CLI::App& command, MediumOptions& o)
     a_not_negative, not_negative);
   matter
     .number("--black-body-reference", o.black_body_reference, "K",
-      "The temperature whose black body has the luminance 1, 100 to 100000 kelvin [1500]",
-      "a temperature from 100 to 100000 kelvin", [](double v) { return v >= 100 && v <= 1e5; })
+      "The temperature whose black body has the luminance 1, 800 to 100000 kelvin [1500]",
+      "a temperature from 800 to 100000 kelvin", [](double v) { return v >= 800 && v <= 1e5; })
     ->needs(black_body);
   command
     .add_option("--temperature-array", o.temperature_array,

@@ -404,7 +404,7 @@ std::vector<Control> glow_controls()
                  ? of_matter(s)
                  : "the input has no temperatures";
       } },
-    { "white at", { "black-body-reference" }, "K", matter, logarithmic, constant(500.0),
+    { "white at", { "black-body-reference" }, "K", matter, logarithmic, constant(800.0),
       constant(20000.0),
       [](S s) { return std::optional<double>(s.options->medium.black_body_reference); },
       [](J j, S, double v) { j["black-body-reference"] = v; }, black_body },
