@@ -1,5 +1,5 @@
 // How often renders ask whether to go on, and that what was ended leaves nothing wrong behind.
-#include "../support/lit_scenes.h"
+#include "sunlit_ball.h"
 
 #include "Transport/path_tracer.h"
 
@@ -12,34 +12,14 @@ namespace
 
 constexpr int edge = 90; // no multiple of a tile
 
-/// A lit ball of density that shadows itself.
-struct Ball
+struct Ball : SunlitBall
 {
-  Voxels<float> voxels{ 24,
-    24,
-    24,
-    [](int i, int j, int k)
-    {
-      const glm::dvec3 p(i / 11.5 - 1.0, j / 11.5 - 1.0, k / 11.5 - 1.0);
-      return static_cast<float>(std::max(0.0, 1.0 - glm::dot(p, p)));
-    } };
-  Scene scene;
   MarchSettings march;
 
   Ball()
+    : SunlitBall(24)
   {
-    Volume& volume = this->scene.volumes[0];
-    volume.grid = this->voxels.grid();
-    volume.meaning = ValueMeaning::Density;
-    volume.density.extinction = 0.4;
-    volume.medium.lit = true;
-    volume.data_revision = volume.medium_revision = 1;
-    Light sun;
-    sun.diffuse = glm::dvec3(1.0);
-    sun.direction = glm::normalize(glm::dvec3(-1.0, -1.0, 0.5));
-    this->scene.lights.push_back(sun);
     this->scene.sky.radiance = glm::dvec3(0.2);
-    this->scene.camera = view_of(this->scene, glm::dvec3(0.3, -0.4, -1.0), false).camera(1.0);
     this->march.step = 0.5;
     this->march.shadows = ShadowMethod::Volume;
     this->march.threads = 1;

@@ -1,6 +1,6 @@
 // Renders in several threads of a program at once: each is told of its progress in its own thread,
 // can be ended, and is the picture that it is alone.
-#include "../support/lit_scenes.h"
+#include "sunlit_ball.h"
 
 #include "Transport/fog_film.h"
 #include "Transport/path_tracer.h"
@@ -22,35 +22,6 @@ namespace
 
 constexpr int edge = 60;
 constexpr int at_once = 4;
-
-/// A lit ball of density in fog.
-struct Ball
-{
-  Voxels<float> voxels{ 16,
-    16,
-    16,
-    [](int i, int j, int k)
-    {
-      const glm::dvec3 p(i / 7.5 - 1.0, j / 7.5 - 1.0, k / 7.5 - 1.0);
-      return static_cast<float>(std::max(0.0, 1.0 - glm::dot(p, p)));
-    } };
-  Scene scene;
-
-  Ball()
-  {
-    Volume& volume = this->scene.volumes[0];
-    volume.grid = this->voxels.grid();
-    volume.meaning = ValueMeaning::Density;
-    volume.density.extinction = 0.4;
-    volume.medium.lit = true;
-    volume.data_revision = volume.medium_revision = 1;
-    Light sun;
-    sun.diffuse = glm::dvec3(1.0);
-    sun.direction = glm::normalize(glm::dvec3(-1.0, -1.0, 0.5));
-    this->scene.lights.push_back(sun);
-    this->scene.camera = view_of(this->scene, glm::dvec3(0.3, -0.4, -1.0), false).camera(1.0);
-  }
-};
 
 /// Draws with that many threads; whether it was drawn to its end.
 struct Render
@@ -122,7 +93,7 @@ void together(const std::function<void(int)>& work)
 
 TEST(RenderingAtOnce, IsToldInItsOwnThreadAndIsThePictureThatItIsAlone)
 {
-  const Ball ball;
+  const SunlitBall ball(16);
   for (const Render& render : renders())
   {
     for (const int threads : { 1, 2 })
@@ -166,7 +137,7 @@ TEST(RenderingAtOnce, IsToldInItsOwnThreadAndIsThePictureThatItIsAlone)
 
 TEST(RenderingAtOnce, CanBeEndedEachByItself)
 {
-  const Ball ball;
+  const SunlitBall ball(16);
   for (const Render& render : renders())
   {
     for (const int threads : { 1, 2 })
