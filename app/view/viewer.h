@@ -161,6 +161,7 @@ private:
   Triple sun_seen() const;
   void turn_sun(int x, int y);
   void turn(const Control& control, double place);
+  void turn_held(const Control& control, double place); ///< in the scene as it was when its bar was taken
   void nudge(const Control& control, double by);
   void restore(const Control& control);
   void tint(int index, double hue, double saturation);

@@ -106,21 +106,23 @@ void Viewer::turn_sun(int x, int y)
 
 void Viewer::turn(const Control& control, double place)
 {
-  ControlScene from = this->control_scene();
+  const ControlScene now = this->control_scene();
   ordered_json scene = this->Scene;
-  if (this->Hold != Held::Control)
-  {
-    control.set(scene, from, value_at(control, from, place));
-    this->set(scene);
-    return;
-  }
+  control.set(scene, now, value_at(control, now, place));
+  this->set(scene);
+}
+
+void Viewer::turn_held(const Control& control, double place)
+{
   if (!this->BeforeDrag)
   {
-    this->BeforeDrag = std::make_shared<const DragStart>(DragStart{ scene, this->Volume.options });
+    this->BeforeDrag =
+      std::make_shared<const DragStart>(DragStart{ this->Scene, this->Volume.options });
   }
   const std::shared_ptr<const DragStart> start = this->BeforeDrag; // set() ends it
+  ControlScene from = this->control_scene();
   from.options = &start->options;
-  scene = start->scene;
+  ordered_json scene = start->scene;
   control.set(scene, from, value_at(control, from, place));
   this->set(scene);
   this->BeforeDrag = start;

@@ -235,7 +235,7 @@ void Viewer::drag_control(int x)
     this->set_chosen_colour(with_brightness(this->HeldColour, std::clamp(place, 0.0, 1.0)));
     return;
   }
-  this->turn(controls()[static_cast<std::size_t>(this->HeldSpot.index)], place);
+  this->turn_held(controls()[static_cast<std::size_t>(this->HeldSpot.index)], place);
 }
 
 bool Viewer::drag_point(int x, int y)

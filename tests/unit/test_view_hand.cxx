@@ -84,6 +84,12 @@ TEST(Hand, ABarDraggedToItsEndAndBackLosesNothing)
     viewer.set_key("exposure", 1.5);
     viewer.drag(held.x + 5, held.y);
     EXPECT_EQ(viewer.key_of_scene("exposure"), 1.5);
+    const nlohmann::json dragged = keys_of(viewer);
+    viewer.key("plus");
+    viewer.drag(held.x + 5, held.y);
+    EXPECT_GT(viewer.key_of_scene("exposure"), 1.5);
+    viewer.set_key("exposure", 1.5);
+    EXPECT_EQ(keys_of(viewer), dragged);
     viewer.release();
     // Once it was let go, the end is meant.
     viewer.press(held.x, held.y, false, false);
