@@ -133,6 +133,13 @@ bool render_fog(const Scene& scene, Film& film, int threads, const Progress& pro
         {
           for (int tile = range.begin(); tile != range.end() && !aborted; ++tile)
           {
+            // Before the tile: the others may have drawn all the rest when it is drawn, and who wants
+            // it ended must be heard before all is done.
+            if (progress && std::this_thread::get_id() == caller && !progress(double(done) / tiles))
+            {
+              aborted = true;
+              break;
+            }
             const int last = std::min((tile + 1) * tile_rows, film.height);
             for (int y = tile * tile_rows; y < last; ++y)
             {
@@ -141,12 +148,7 @@ bool render_fog(const Scene& scene, Film& film, int threads, const Progress& pro
                 draw(x, y);
               }
             }
-            const int finished = ++done;
-            if (progress && std::this_thread::get_id() == caller &&
-                !progress(double(finished) / tiles))
-            {
-              aborted = true;
-            }
+            ++done;
           }
         },
         tbb::simple_partitioner());

@@ -41,6 +41,13 @@ bool for_each_ray(const Scene& scene,
         {
           for (int y = rows.begin(); y != rows.end() && !aborted; ++y)
           {
+            // Before the row: who wants it ended is heard before all is done.
+            if (progress && std::this_thread::get_id() == caller &&
+              !progress(double(done) / film.height))
+            {
+              aborted = true;
+              break;
+            }
             for (int x = 0; x < film.width; ++x)
             {
               const PixelRay ray = rays.ray(x, y);
@@ -49,17 +56,12 @@ bool for_each_ray(const Scene& scene,
                 draw(static_cast<std::size_t>(y) * film.width + x, ray);
               }
             }
-            const int finished = ++done;
-            if (progress && std::this_thread::get_id() == caller &&
-              !progress(double(finished) / film.height))
-            {
-              aborted = true;
-            }
+            ++done;
           }
         },
         tbb::simple_partitioner());
     });
-  return !aborted;
+  return !aborted && (!progress || progress(1.0));
 }
 
 void store(Film& film,

@@ -4,6 +4,7 @@
 
 #include "Transport/fog_film.h"
 #include "Transport/path_tracer.h"
+#include "Transport/reference.h"
 #include "Transport/thread_arena.h"
 
 #include <tbb/parallel_for.h>
@@ -60,6 +61,15 @@ const std::vector<Render>& renders()
         foggy.fog.enabled = true;
         foggy.fog.extinction[0] = foggy.fog.extinction[1] = foggy.fog.extinction[2] = 0.01;
         return render_fog(foggy, film, threads, progress);
+      } },
+    { "reference",
+      [](const Scene& scene, int threads, Film& film, const Progress& progress)
+      {
+        Scene glowing = scene;
+        glowing.lights.clear();
+        glowing.volumes[0].medium.emission = glm::dvec3(1.0);
+        return render_fixed_step(
+          glowing, 0.5, SamplePlacement::Middle, 0.0, threads, film, progress);
       } },
   };
   return all;
