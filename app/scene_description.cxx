@@ -90,6 +90,13 @@ std::vector<std::string> lights_in_words(const VolumeScene& scene)
     : words;
 }
 
+/// Terms of gradient shading.
+std::string shading_in_words(vtkVolumeProperty* property)
+{
+  return "ambient " + text(property->GetAmbient()) + ", diffuse " + text(property->GetDiffuse()) +
+    ", specular " + text(property->GetSpecular()) + ", power " + text(property->GetSpecularPower());
+}
+
 }
 
 SceneDescription describe(const VolumeScene& scene, double step)
@@ -150,7 +157,7 @@ SceneDescription describe(const VolumeScene& scene, double step)
     { "sample distance", length(step, unit) + " (" + text(d.step_voxels) + " voxel)", all },
     { "interpolation", d.interpolation, all },
     { "blend mode", scene.options.modes.blend_mode, all },
-    { "shading", d.shading ? "on" : "off", all },
+    { "shading", d.shading ? "on: " + shading_in_words(property) : "off", all },
     { "camera", d.camera.parallel ? "parallel" : "perspective", all },
     { "resolution", std::to_string(d.width) + " x " + std::to_string(d.height), all },
     { "jitter", "off", "vtk-gpu" },

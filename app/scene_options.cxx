@@ -33,6 +33,13 @@ const CLI::Validator& positive()
   return check;
 }
 
+const CLI::Validator& fraction()
+{
+  static const CLI::Validator check =
+    number("a number from 0 to 1", [](double v) { return v >= 0.0 && v <= 1.0; });
+  return check;
+}
+
 /// "8G" in bytes; 0 for what is no size from 1 byte to 8 EB.
 std::int64_t bytes_of(const std::string& text)
 {
@@ -212,6 +219,31 @@ void add_scene_options(CLI::App& command, SceneOptions& o, const std::string& sh
     ->check(one_of({ "on", "off", "preset" }))
     ->group(look);
   command
+    .add_option("--ambient", o.shading.ambient,
+      "Of gradient shading, the part of a colour that is sent whatever the light's direction [the "
+      "preset's]")
+    ->type_name("A")
+    ->check(fraction())
+    ->group(look);
+  command
+    .add_option("--diffuse", o.shading.diffuse,
+      "Of gradient shading, the part of a colour that a surface facing the light sends [the preset's]")
+    ->type_name("D")
+    ->check(fraction())
+    ->group(look);
+  command
+    .add_option("--specular", o.shading.specular,
+      "Of gradient shading, the highlight's part of the light's colour [the preset's]")
+    ->type_name("S")
+    ->check(fraction())
+    ->group(look);
+  command
+    .add_option("--specular-power", o.shading.specular_power,
+      "Of gradient shading, the highlight's exponent: larger is smaller and sharper [the preset's]")
+    ->type_name("N")
+    ->check(number("a number of 0 or more", [](double v) { return v >= 0.0; }))
+    ->group(look);
+  command
     .add_option("--interpolation", o.interpolation, "Between voxels: linear or nearest [linear]")
     ->type_name("HOW")
     ->check(one_of({ "linear", "nearest" }))
@@ -240,7 +272,7 @@ void add_scene_options(CLI::App& command, SceneOptions& o, const std::string& sh
       "truth, light scattered any number of times, by --mapper smart, which render takes where this is "
       "given; the ray march counts the largest error that its steps make [0.004]")
     ->type_name("T")
-    ->check(number("a number from 0 to 1", [](double v) { return v >= 0.0 && v <= 1.0; }))
+    ->check(fraction())
     ->group(cost);
   command
     .add_option("--samples-per-pixel", o.paths.samples_per_pixel,
@@ -320,6 +352,15 @@ void refuse_beyond_stock_mappers(const SceneOptions& options, const std::string&
   {
     throw Failure("--mesh", "surfaces are drawn with Brume's volumes alone", remedy, BadCall);
   }
+}
+
+std::string ShadingTerms::given() const
+{
+  return this->ambient     ? "--ambient"
+    : this->diffuse        ? "--diffuse"
+    : this->specular       ? "--specular"
+    : this->specular_power ? "--specular-power"
+                           : "";
 }
 
 std::string PathOptions::given() const

@@ -34,6 +34,24 @@ struct PathOptions
   std::string given() const;
 };
 
+/// Terms of gradient shading in place of the preset's; empty: the preset's.
+struct ShadingTerms
+{
+  std::optional<double> ambient;        ///< in [0, 1]
+  std::optional<double> diffuse;        ///< in [0, 1]
+  std::optional<double> specular;       ///< in [0, 1]
+  std::optional<double> specular_power; ///< ≥ 0
+
+  /// The first option that was given, empty for none.
+  std::string given() const;
+
+  bool operator==(const ShadingTerms& other) const
+  {
+    return this->ambient == other.ambient && this->diffuse == other.diffuse &&
+      this->specular == other.specular && this->specular_power == other.specular_power;
+  }
+};
+
 struct SceneOptions
 {
   std::string input;
@@ -62,6 +80,7 @@ struct SceneOptions
   std::optional<double> sample_distance;       ///< world units
   std::string interpolation = "linear";
   std::string shade = "preset"; ///< on, off, or preset: as the preset has it
+  ShadingTerms shading;
   ModeOptions modes;
   MediumOptions medium;
   std::optional<double> tolerance_choice;

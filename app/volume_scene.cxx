@@ -350,11 +350,34 @@ void give_property(VolumeScene& scene)
     {
       property->SetShade(c, options.shade == "on");
     }
+    const ShadingTerms& terms = options.shading;
+    property->SetAmbient(c, terms.ambient.value_or(property->GetAmbient(c)));
+    property->SetDiffuse(c, terms.diffuse.value_or(property->GetDiffuse(c)));
+    property->SetSpecular(c, terms.specular.value_or(property->GetSpecular(c)));
+    property->SetSpecularPower(c, terms.specular_power.value_or(property->GetSpecularPower(c)));
   }
   property->SetInterpolationType(
     options.interpolation == "nearest" ? VTK_NEAREST_INTERPOLATION : VTK_LINEAR_INTERPOLATION);
   scene.opacity_unit_distance = property->GetScalarOpacityUnitDistance();
   scene.volume->SetProperty(property);
+}
+
+/// Says that an option of gradient shading has no part in the picture; nothing where it has one.
+void remark_unused_shading(const VolumeScene& scene)
+{
+  const std::string given = scene.options.shading.given();
+  if (given.empty())
+  {
+    return;
+  }
+  if (scene.options.density())
+  {
+    std::cerr << "brume: " << given << ": it changes nothing: a density is not shaded by its gradient\n";
+  }
+  else if (!scene.volume->GetProperty()->GetShade())
+  {
+    std::cerr << "brume: " << given << ": it changes nothing: add --shade on\n";
+  }
 }
 
 /// Lights, medium and fog, in the sky that the scene has.
@@ -398,6 +421,7 @@ bool same_look(const SceneOptions& a, const SceneOptions& b)
 {
   return a.preset == b.preset && a.density() == b.density() &&
     a.opacity_unit_distance == b.opacity_unit_distance && a.shade == b.shade &&
+    a.shading == b.shading &&
     a.interpolation == b.interpolation && same_points(a.colour, b.colour) &&
     same_points(a.opacity, b.opacity) && a.modes.isovalues == b.modes.isovalues;
 }
@@ -467,6 +491,10 @@ VolumeScene make_volume_scene(const SceneOptions& options)
   scene.voxel_edge = smallest_edge(scene.input);
   scene.volume = vtkSmartPointer<vtkVolume>::New();
   give_property(scene);
+  if (!options.quiet)
+  {
+    remark_unused_shading(scene);
+  }
   give_light_and_matter(scene);
   InterruptionWatch::check(options.input.c_str());
   scene.camera = make_camera(scene);

@@ -56,6 +56,12 @@ std::string of_classified(S s)
                                 : "";
 }
 
+std::string of_shaded(S s)
+{
+  const std::string before = of_classified(s);
+  return !before.empty() ? before : s.shading.on ? "" : "gradient shading is off";
+}
+
 std::string of_fog(S s)
 {
   return s.options->medium.has_fog() ? "" : "there is no fog";
@@ -480,6 +486,18 @@ std::vector<Control> fog_controls()
 std::vector<Control> look_controls()
 {
   return {
+    { "ambient", { "ambient" }, "", look, linear, constant(0.0), constant(1.0),
+      [](S s) { return std::optional<double>(s.shading.ambient); },
+      [](J j, S, double v) { j["ambient"] = v; }, of_shaded },
+    { "diffuse", { "diffuse" }, "", look, linear, constant(0.0), constant(1.0),
+      [](S s) { return std::optional<double>(s.shading.diffuse); },
+      [](J j, S, double v) { j["diffuse"] = v; }, of_shaded },
+    { "specular", { "specular" }, "", look, linear, constant(0.0), constant(1.0),
+      [](S s) { return std::optional<double>(s.shading.specular); },
+      [](J j, S, double v) { j["specular"] = v; }, of_shaded },
+    { "specular power", { "specular-power" }, "", look, logarithmic, constant(1.0),
+      constant(128.0), [](S s) { return std::optional<double>(s.shading.power); },
+      [](J j, S, double v) { j["specular-power"] = v; }, of_shaded },
     colour_control(
       { "background", { "background" }, "", look, linear, constant(0.0), constant(1.0),
         [](S s) { return std::optional<double>(brightness_of(s.options->background)); }, {},

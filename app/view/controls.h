@@ -33,6 +33,7 @@ struct ControlScene
   double low = 0.0;                   ///< of all that is drawn, along `up`
   double high = 1.0;
   double opacity_unit_distance = 1.0; ///< world units, as it is drawn
+  Shading shading{};                  ///< by the gradient, as it is drawn
   SunAngles first_sun;                ///< of a scene that has none yet
 };
 

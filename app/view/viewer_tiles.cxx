@@ -16,6 +16,7 @@
 #include "vtkImageData.h"
 #include "vtkPointData.h"
 #include "vtkVolume.h"
+#include "vtkVolumeProperty.h"
 
 #include <algorithm>
 #include <cmath>
@@ -75,6 +76,15 @@ ControlScene Viewer::control_scene() const
     image && image->GetPointData()->HasArray(this->Volume.options.medium.temperature_array.c_str());
   scene.first_sun = this->first_sun();
   scene.opacity_unit_distance = this->Volume.opacity_unit_distance;
+  if (scene.volume)
+  {
+    vtkVolumeProperty* const property = this->Volume.volume->GetProperty();
+    scene.shading = { property->GetShade() != 0,
+      property->GetAmbient(),
+      property->GetDiffuse(),
+      property->GetSpecular(),
+      property->GetSpecularPower() };
+  }
   return scene;
 }
 

@@ -140,6 +140,10 @@ bad_calls() {
 --tolerance 0.1 --tolerance 0.2
 --interpolation cubic
 --shade perhaps
+--ambient -0.1
+--diffuse 1.1
+--specular nan
+--specular-power -1
 --blend-mode maximum
 --isovalues a
 --average-range 1

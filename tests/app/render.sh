@@ -26,7 +26,7 @@ run render --help
 expect_success
 expect_output '^Usage: brume render INPUT --output FILE \[OPTIONS\]$'
 for option in resolution camera-position camera-focal-point camera-view-up camera-view-angle \
-  camera-parallel-scale background preset opacity-unit-distance shade interpolation \
+  camera-parallel-scale background preset opacity-unit-distance shade ambient diffuse specular specular-power interpolation \
   blend-mode isovalues average-range cropping cropping-flags clipping-plane mask \
   sample-distance tolerance threads quiet verbose output mapper stats exposure display-curve; do
   expect_output "[-][-]$option\b"
@@ -85,6 +85,10 @@ preset --preset ct-skin
 distance --opacity-unit-distance 20
 nearest --interpolation nearest
 shade --shade off
+ambient --ambient 0.5
+diffuse --diffuse 0.5
+specular --specular 0.5
+power --specular-power 40
 step --sample-distance 6
 END
 
@@ -109,6 +113,21 @@ run render ../blob.nrrd --output size.png --resolution 31,17 --quiet
 expect_success
 [ "$(od -An -tu1 -j16 -N8 size.png | tr -s ' ')" = " 0 0 0 31 0 0 0 17" ] ||
   fail "expected 31 x 17 pixels"
+
+case_ "terms of shading in place of the preset's"
+draw preset --preset mr-default
+draw same --preset mr-default --ambient 0.25 --diffuse 0.75 --specular 0.15 --specular-power 10
+same preset.png same.png
+blob ../blob.nrrd
+for words in "--shade off" "--extinction 0.1"; do
+  # shellcheck disable=SC2086
+  run render ../blob.nrrd --output a.png --resolution 8,8 --specular 1 $words
+  expect_status 0
+  expect_error '^brume: --specular: it changes nothing: '
+  # shellcheck disable=SC2086
+  run render ../blob.nrrd --output a.png --resolution 8,8 --specular 1 $words --quiet
+  expect_success
+done
 
 case_ "--quiet says nothing, --verbose says why"
 blob ../blob.nrrd

@@ -13,8 +13,10 @@
 #include "vtkGenericRenderWindowInteractor.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
+#include "vtkVolumeProperty.h"
 
 #include <algorithm>
+#include <map>
 #include <random>
 #include <set>
 
@@ -356,6 +358,51 @@ TEST(Controls, TwoLobesAreOnePhaseFunction)
   EXPECT_EQ(lobes()[1].function, LobeChoice::Function::Schlick);
   turn("anisotropy", 0.3); // Rayleigh's has no direction to turn
   EXPECT_EQ(lobes()[0].function, LobeChoice::Function::HenyeyGreenstein);
+}
+
+TEST(Controls, TermsOfShadingAreThePresetsUntilTheyAreDragged)
+{
+  ordered_json scene = ball_scene();
+  scene["preset"] = "mr-default"; // shaded
+  scene["tolerance"] = 0.05;
+  Viewer::Settings settings = settings_of({ MapperKind::RayMarch });
+  settings.window = { 450, 700 };
+  Viewer viewer(scene, settings);
+  show_page(viewer, ControlPage::Look);
+  const auto terms = [&]
+  {
+    vtkVolumeProperty* const property = viewer.volume_scene().volume->GetProperty();
+    return std::map<std::string, double>{ { "ambient", property->GetAmbient() },
+      { "diffuse", property->GetDiffuse() },
+      { "specular", property->GetSpecular() },
+      { "specular-power", property->GetSpecularPower() } };
+  };
+  finish(viewer);
+  const brume::Picture first = viewer.shot(0).picture;
+  const std::map<std::string, double> presets = terms();
+  ControlScene any;
+  for (const char* name : { "ambient", "diffuse", "specular", "specular power" })
+  {
+    SCOPED_TRACE(name);
+    const int index = index_of(name);
+    const Control& control = controls()[static_cast<std::size_t>(index)];
+    const std::string& key = control.keys.front();
+    const Place bar = scrolled_to(viewer, HotSpot::Kind::Control, index, 0.95);
+    click(viewer, bar);
+    std::map<std::string, double> expected = presets;
+    expected[key] = viewer.key_of_scene(key).get<double>();
+    EXPECT_NEAR(place_of(control, any, expected[key]), 0.95, 0.01);
+    EXPECT_EQ(terms(), expected); // this one, and none besides
+    finish(viewer);
+    EXPECT_GT(difference(first, viewer.shot(0).picture), 0.01);
+    EXPECT_LE(difference(viewer.shot(0).picture, rendered(viewer.scene())), 0.004);
+    click(viewer, bar, true);
+    EXPECT_EQ(terms(), presets);
+    finish(viewer);
+    EXPECT_LE(difference(first, viewer.shot(0).picture), 1e-6);
+  }
+  viewer.set_key("shade", "off");
+  EXPECT_LT(place_of_spot(viewer, HotSpot::Kind::Control, index_of("specular")).x, 0);
 }
 
 TEST(Viewer, ColoursOfTheTransferFunctionAreDragged)
