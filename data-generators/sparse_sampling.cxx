@@ -1,14 +1,13 @@
 #include "data-generators/sparse_sampling.h"
 
 #include "Transport/half.h"
+#include "Transport/thread_arena.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <stdexcept>
-#include <tbb/info.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 #include <thread>
 #include <vector>
 
@@ -244,8 +243,9 @@ SparseSample sample_sparse(const Field& field,
   SparseSample sample;
   const Sampler sampler(field, time, grid, options, progress);
   SparseTopology topology;
-  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::info::default_concurrency());
-  if (!arena.execute([&] { return sampler.find_topology(topology); }))
+  bool complete = false;
+  ThreadArena(options.threads).execute([&] { complete = sampler.find_topology(topology); });
+  if (!complete)
   {
     sample.stopped = true;
     return sample;

@@ -12,18 +12,24 @@ namespace brume
 namespace
 {
 
-/// The arenas that nobody works in, by their threads.
-struct IdleArenas
+/// Arenas of one number of threads.
+struct Arenas
 {
-  std::mutex mutex;
-  std::map<int, std::vector<std::unique_ptr<tbb::task_arena>>> of_threads;
+  std::vector<std::unique_ptr<tbb::task_arena>> idle; ///< with room for all that were made
+  std::size_t made = 0;
 };
 
-IdleArenas& idle_arenas()
+struct AllArenas
+{
+  std::mutex mutex;
+  std::map<int, Arenas> of_threads;
+};
+
+AllArenas& all_arenas()
 {
   // Never destroyed: others may draw while the program ends.
-  static auto* const idle = new IdleArenas;
-  return *idle;
+  static auto* const all = new AllArenas;
+  return *all;
 }
 
 }
@@ -31,25 +37,26 @@ IdleArenas& idle_arenas()
 ThreadArena::ThreadArena(int threads)
   : Threads(threads > 0 ? threads : tbb::info::default_concurrency())
 {
-  IdleArenas& idle = idle_arenas();
   {
-    const std::lock_guard<std::mutex> lock(idle.mutex);
-    std::vector<std::unique_ptr<tbb::task_arena>>& arenas = idle.of_threads[this->Threads];
-    if (!arenas.empty())
+    AllArenas& all = all_arenas();
+    const std::lock_guard<std::mutex> lock(all.mutex);
+    Arenas& arenas = all.of_threads[this->Threads];
+    if (!arenas.idle.empty())
     {
-      this->Arena = std::move(arenas.back());
-      arenas.pop_back();
+      this->Arena = std::move(arenas.idle.back());
+      arenas.idle.pop_back();
       return;
     }
+    arenas.idle.reserve(++arenas.made); // to be given back without asking for memory
   }
   this->Arena = std::make_unique<tbb::task_arena>(this->Threads);
 }
 
 ThreadArena::~ThreadArena()
 {
-  IdleArenas& idle = idle_arenas();
-  const std::lock_guard<std::mutex> lock(idle.mutex);
-  idle.of_threads[this->Threads].push_back(std::move(this->Arena));
+  AllArenas& all = all_arenas();
+  const std::lock_guard<std::mutex> lock(all.mutex);
+  all.of_threads[this->Threads].idle.push_back(std::move(this->Arena));
 }
 
 }
