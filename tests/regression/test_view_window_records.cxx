@@ -34,9 +34,11 @@ namespace fs = std::filesystem;
 class RecordingWindow
 {
 public:
-  RecordingWindow(const ordered_json& scene, const std::string& name)
+  RecordingWindow(const ordered_json& scene,
+    const std::string& name,
+    MapperKind mapper = MapperKind::RayMarch)
     : Folder(std::string(BRUME_TEST_OUTPUT "/") + name)
-    , TheViewer(scene, patient())
+    , TheViewer(scene, patient(mapper))
     , Window(this->TheViewer, this->place())
     , TheHand(this->Window.interactor())
   {
@@ -64,9 +66,10 @@ public:
 
 private:
   /// Drafts are whole from the second on, however slow the machine is.
-  static Viewer::Settings patient()
+  static Viewer::Settings patient(MapperKind mapper)
   {
     Viewer::Settings settings;
+    settings.mappers = { mapper };
     settings.draft_seconds = 30.0;
     return settings;
   }
@@ -164,6 +167,23 @@ TEST(ViewWindowRecords, AnEXRIsNoDraftAndNotOfTheSceneBefore)
   ASSERT_EQ(films.size(), 2u) << window.Failed;
   EXPECT_LT(off_render(brume::read_exr(films[1].string()), viewer.scene()), 0.004);
   EXPECT_EQ(window.Failed, "");
+}
+
+TEST(ViewWindowRecords, AnEXRIsNotOfASceneThatWasNotDrawn)
+{
+  ordered_json scene = lit_scene();
+  scene["tolerance"] = 0.05;
+  RecordingWindow window(scene, "view-window-exr-failed", MapperKind::PathTrace);
+  Viewer& viewer = window.TheViewer;
+  window.TheHand.key("F3");
+  ASSERT_EQ(window.files(".exr").size(), 1u) << window.Failed;
+  ASSERT_EQ(viewer.failure(0), "");
+  viewer.set_key("sun-direction", nullptr);
+  viewer.set_key("blend-mode", "mip"); // paths draw no projections
+  window.TheHand.key("F3");
+  ASSERT_NE(viewer.failure(0), "") << window.Failed << viewer.scene();
+  EXPECT_EQ(window.files(".exr").size(), 1u);
+  EXPECT_NE(window.Failed, "");
 }
 
 TEST(ViewWindowRecords, AScreenshotIsNotOfTheSceneBefore)
