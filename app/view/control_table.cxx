@@ -268,7 +268,7 @@ double most_emitted(S s)
 // clang-format off: a table
 std::vector<Control> light_controls()
 {
-  Control irradiance = colour_control(
+  const Control irradiance = colour_control(
     { "sun irradiance", { "sun-irradiance" }, "", light, linear, constant(0.0), constant(20.0),
       [](S s)
       {
@@ -285,7 +285,6 @@ std::vector<Control> light_controls()
         set_sun(j, s, s.first_sun);
       }
     });
-  irradiance.put_in = { "sun-direction" };
   return {
     { "sun azimuth", { "sun-direction" }, "deg", light, linear, constant(-180.0), constant(180.0),
       [](S s)
@@ -367,7 +366,7 @@ std::vector<Control> scattering_controls()
     { "octaves", { "octaves" }, "", matter, ControlScale::Whole, constant(1.0), constant(16.0),
       of_medium([](const MediumOptions& m) { return m.octaves; }),
       [](J j, S, double v) { j["octaves"] = v; }, of_matter, "comma", "period" },
-    { "octave attenuation", { "octave-attenuation", "octave-contribution" }, "", matter, linear, constant(0.0),
+    { "octave attenuation", { "octave-attenuation" }, "", matter, linear, constant(0.0),
       constant(1.0),
       [](S s) { return std::optional<double>(s.options->medium.octave_attenuation); },
       [](J j, S s, double v)

@@ -78,7 +78,6 @@ struct Control
   std::function<void(nlohmann::ordered_json& scene, const ControlScene&, const Triple&)> set_colour = {};
   ///@}
   double first = 0.25; ///< place on its bar of a colour that the scene does not have yet
-  std::vector<std::string> put_in = {}; ///< keys of others that it sets where the scene has none
 };
 
 /// All of them, in the order in which they are shown.

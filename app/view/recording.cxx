@@ -135,11 +135,20 @@ KeptTimeStep::KeptTimeStep(Viewer& viewer)
 {
 }
 
+void KeptTimeStep::go_back()
+{
+  this->Back = true; // or it was tried
+  this->View.go_to_time(this->Step);
+}
+
 KeptTimeStep::~KeptTimeStep()
 {
   try
   {
-    this->View.go_to_time(this->Step);
+    if (!this->Back)
+    {
+      this->go_back();
+    }
   }
   catch (const std::exception& failure)
   {

@@ -39,18 +39,22 @@ private:
   int Count = 0;
 };
 
-/// Goes back to the time step that was shown; where that cannot be, the viewer says so.
+/// Goes back to the time step that was shown, in the end at the latest, where the viewer says so if it
+/// cannot be.
 class KeptTimeStep
 {
 public:
   explicit KeptTimeStep(Viewer& viewer);
   ~KeptTimeStep();
+  /// Throws what Viewer::go_to_time() does.
+  void go_back();
   KeptTimeStep(const KeptTimeStep&) = delete;
   KeptTimeStep& operator=(const KeptTimeStep&) = delete;
 
 private:
   Viewer& View;
   int Step;
+  bool Back = false;
 };
 
 /// No pause of refinement while it lives; what was paused is paused again.

@@ -24,21 +24,37 @@ Place place_of(vtkRenderWindowInteractor* interactor)
 
 }
 
-bool ViewStyle::TakesPress(bool right_button)
+bool ViewStyle::TakesPress(Button button)
 {
-  if (this->GetState() != VTKIS_NONE)
+  const bool another = this->Holder != Button::None && this->Holder != button;
+  if (another || this->GetState() != VTKIS_NONE)
   {
     return true; // a button more does not change what the first one holds
   }
   const Place place = place_of(this->Interactor);
-  return this->Press &&
-    this->Press(place.x, place.y, right_button, this->Interactor->GetRepeatCount() > 0);
+  const bool taken = this->Press && this->Press(place.x,
+                                      place.y,
+                                      button == Button::Right,
+                                      this->Interactor->GetRepeatCount() > 0);
+  this->Holder = taken ? button : Button::None;
+  return taken;
 }
 
-bool ViewStyle::TakesRelease()
+bool ViewStyle::TakesRelease(Button button)
 {
-  const bool taken = this->Release && this->Release();
-  return taken && this->GetState() == VTKIS_NONE; // else the camera must be told, too
+  if (this->Holder == Button::None)
+  {
+    return false;
+  }
+  if (this->Holder == button)
+  {
+    this->Holder = Button::None;
+    if (this->Release)
+    {
+      this->Release();
+    }
+  }
+  return true;
 }
 
 bool ViewStyle::TakesWheel(int steps)
@@ -49,7 +65,7 @@ bool ViewStyle::TakesWheel(int steps)
 
 void ViewStyle::OnLeftButtonDown()
 {
-  if (!this->TakesPress(false))
+  if (!this->TakesPress(Button::Left))
   {
     this->Superclass::OnLeftButtonDown();
   }
@@ -58,7 +74,7 @@ void ViewStyle::OnLeftButtonDown()
 
 void ViewStyle::OnLeftButtonUp()
 {
-  if (!this->TakesRelease())
+  if (!this->TakesRelease(Button::Left))
   {
     this->Superclass::OnLeftButtonUp();
   }
@@ -67,13 +83,16 @@ void ViewStyle::OnLeftButtonUp()
 
 void ViewStyle::OnMiddleButtonDown()
 {
-  this->Superclass::OnMiddleButtonDown();
+  if (this->Holder == Button::None)
+  {
+    this->Superclass::OnMiddleButtonDown();
+  }
   this->Done();
 }
 
 void ViewStyle::OnRightButtonDown()
 {
-  if (!this->TakesPress(true))
+  if (!this->TakesPress(Button::Right))
   {
     this->Superclass::OnRightButtonDown();
   }
@@ -82,7 +101,7 @@ void ViewStyle::OnRightButtonDown()
 
 void ViewStyle::OnRightButtonUp()
 {
-  if (!this->TakesRelease())
+  if (!this->TakesRelease(Button::Right))
   {
     this->Superclass::OnRightButtonUp();
   }

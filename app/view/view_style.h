@@ -17,10 +17,10 @@ public:
   static ViewStyle* New();
   vtkTypeMacro(ViewStyle, vtkInteractorStyleTrackballCamera);
 
-  /// Whether it takes the mouse; else the camera does.
+  /// Whether it takes the mouse; else the camera does. Until the button is released no other one does anything.
   std::function<bool(int x, int y, bool right_button, bool twice)> Press;
   std::function<bool(int x, int y)> Drag;
-  std::function<bool()> Release;
+  std::function<void()> Release; ///< of the button whose press it took
   std::function<bool(int x, int y, int steps)> Wheel; ///< steps away from the hand above 0
   /// A key by X's name, with whether Control is held.
   std::function<void(const std::string& symbol, bool control)> Key;
@@ -44,9 +44,17 @@ protected:
   ~ViewStyle() override = default;
 
 private:
-  bool TakesPress(bool right_button);
-  bool TakesRelease();
+  enum class Button
+  {
+    None,
+    Left,
+    Right,
+  };
+  bool TakesPress(Button button);
+  bool TakesRelease(Button button);
   bool TakesWheel(int steps);
+
+  Button Holder = Button::None; ///< whose press was taken, until its release
 };
 
 }

@@ -60,7 +60,7 @@ void ViewWindow::Internals::observe()
   { return taken([&] { return this->View.press(x, y, right, twice); }); };
   this->Style->Drag = [this, taken](int x, int y)
   { return taken([&] { return this->View.drag(x, y); }); };
-  this->Style->Release = [this, taken] { return taken([&] { return this->View.release(); }); };
+  this->Style->Release = [this] { this->try_to([&] { this->View.release(); }); };
   this->Style->Wheel = [this, taken](int x, int y, int steps)
   { return taken([&] { return this->View.wheel(x, y, steps); }); };
   this->Style->Key = [this](const std::string& symbol, bool control)

@@ -62,9 +62,9 @@ void ViewWindow::Internals::key(const std::string& symbol, bool control)
           throw Failure("EXR", "VTK's mappers make no film", "show one of Brume's first");
         }
         const NoPause no_pause(this->View);
-        const auto good = [&]
-        { return shot.whole && !shot.draft && this->View.failure(0).empty(); }; // else it is of before
-        while (!good() && this->refine_once({}))
+        const auto failed = [&] { return !this->View.failure(0).empty(); }; // the film is of before
+        const auto good = [&] { return shot.whole && !shot.draft && !failed(); };
+        while (!good() && !failed() && this->refine_once({}))
         {
         }
         if (!good())

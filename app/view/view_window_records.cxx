@@ -13,6 +13,27 @@
 namespace brume::app
 {
 
+namespace
+{
+
+/// Takes Escapes that came too late to end a recording, which are not to close the window.
+class LateEscape
+{
+public:
+  explicit LateEscape(vtkRenderWindow* window)
+    : Window(window)
+  {
+  }
+  ~LateEscape() { take_escape(this->Window->GetGenericDisplayId()); }
+  LateEscape(const LateEscape&) = delete;
+  LateEscape& operator=(const LateEscape&) = delete;
+
+private:
+  vtkRenderWindow* Window;
+};
+
+}
+
 void ViewWindow::Internals::save_screenshot(const std::string& path)
 {
   this->show();
@@ -59,12 +80,14 @@ std::string ViewWindow::Internals::record(const std::string& name,
       recording.add(this->pictures());
     }
   }
-  escape(); // one that came too late is not to close the window
+  this->View.say(name + ": making the video");
+  this->present();
   return recording.finish();
 }
 
 std::string ViewWindow::Internals::turntable(int pictures)
 {
+  const LateEscape late(this->Window);
   const KeptCamera kept(this->View.camera());
   return this->record("turntable",
     pictures,
@@ -86,8 +109,12 @@ std::string ViewWindow::Internals::series()
   {
     throw Failure("series", "the input has one time step", "open a series over time");
   }
-  const KeptTimeStep kept(this->View);
-  return this->record("series", count, [this](int i) { this->View.go_to_time(i); });
+  const LateEscape late(this->Window);
+  KeptTimeStep kept(this->View);
+  const std::string folder =
+    this->record("series", count, [this](int i) { this->View.go_to_time(i); });
+  kept.go_back();
+  return folder;
 }
 
 void ViewWindow::save_screenshot(const std::string& path)

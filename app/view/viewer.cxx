@@ -100,6 +100,7 @@ void Viewer::take(const ordered_json& scene)
   this->Values.reset();
   this->Figures.clear();
   this->Hold = Held::Nothing;
+  this->Others.clear();
   this->BeforeDrag.reset();
   this->Hand = {};
   this->choose_point(-1);

@@ -16,6 +16,7 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -164,6 +165,7 @@ private:
   void turn_held(const Control& control, double place); ///< in the scene as it was when its bar was taken
   void nudge(const Control& control, double by);
   void restore(const Control& control);
+  void note_others(const Control& control, const nlohmann::ordered_json& before);
   void tint(int index, double hue, double saturation);
   Triple chosen_colour() const;
   void set_chosen_colour(const Triple& colour);
@@ -236,6 +238,13 @@ private:
     Scroll,
     Divider,
   };
+  /// What a control did to a key that is not its own; null: not in the scene.
+  struct OthersKey
+  {
+    nlohmann::ordered_json before;
+    nlohmann::ordered_json after;
+  };
+  std::map<const Control*, std::map<std::string, OthersKey>> Others; ///< for a right click to undo
   Held Hold = Held::Nothing;
   HotSpot HeldSpot;
   Triple HeldColour{ 1.0, 1.0, 1.0 }; ///< of a point: its brightness is dragged, and its hue must stay at 0
@@ -245,6 +254,7 @@ private:
   {
     nlohmann::ordered_json scene;
     SceneOptions options;
+    std::map<std::string, OthersKey> others;
   };
   std::shared_ptr<const DragStart> BeforeDrag;
   int HeldOffset = 0;                 ///< from the scroll bar's thumb to the hand

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace brume::app
 {
@@ -107,17 +108,19 @@ void Viewer::turn_sun(int x, int y)
 void Viewer::turn(const Control& control, double place)
 {
   const ControlScene now = this->control_scene();
-  ordered_json scene = this->Scene;
+  const ordered_json before = this->Scene;
+  ordered_json scene = before;
   control.set(scene, now, value_at(control, now, place));
   this->set(scene);
+  this->note_others(control, before);
 }
 
 void Viewer::turn_held(const Control& control, double place)
 {
   if (!this->BeforeDrag)
   {
-    this->BeforeDrag =
-      std::make_shared<const DragStart>(DragStart{ this->Scene, this->Volume.options });
+    this->BeforeDrag = std::make_shared<const DragStart>(
+      DragStart{ this->Scene, this->Volume.options, this->Others[&control] });
   }
   const std::shared_ptr<const DragStart> start = this->BeforeDrag; // set() ends it
   ControlScene from = this->control_scene();
@@ -126,6 +129,44 @@ void Viewer::turn_held(const Control& control, double place)
   control.set(scene, from, value_at(control, from, place));
   this->set(scene);
   this->BeforeDrag = start;
+  this->Others[&control] = start->others;
+  this->note_others(control, start->scene);
+}
+
+void Viewer::note_others(const Control& control, const ordered_json& before)
+{
+  const auto value = [](const ordered_json& scene, const std::string& key)
+  { return scene.contains(key) ? scene[key] : ordered_json(); };
+  std::set<std::string> keys;
+  for (const auto& item : before.items())
+  {
+    keys.insert(item.key());
+  }
+  for (const auto& item : this->Scene.items())
+  {
+    keys.insert(item.key());
+  }
+  for (const std::string& own : control.keys)
+  {
+    keys.erase(own);
+  }
+  std::map<std::string, OthersKey>& others = this->Others[&control];
+  for (const std::string& key : keys)
+  {
+    const ordered_json was = value(before, key);
+    const ordered_json is = value(this->Scene, key);
+    if (was == is)
+    {
+      continue;
+    }
+    const auto noted = others.find(key);
+    // What it has changed already was something else before that.
+    if (noted == others.end() || noted->second.after != was)
+    {
+      others[key].before = was;
+    }
+    others[key].after = is;
+  }
 }
 
 void Viewer::restore(const Control& control)
@@ -139,13 +180,18 @@ void Viewer::restore(const Control& control)
       scene[key] = this->First[key];
     }
   }
-  for (const std::string& key : control.put_in)
+  for (const auto& [key, other] : this->Others[&control])
   {
-    if (!this->First.contains(key))
+    if (this->key_of_scene(key) == other.after) // else somebody meant it
     {
       scene.erase(key);
+      if (!other.before.is_null())
+      {
+        scene[key] = other.before;
+      }
     }
   }
+  this->Others.erase(&control);
   this->set(scene);
 }
 
@@ -159,9 +205,11 @@ void Viewer::tint(int index, double hue, double saturation)
   }
   const Control& control = controls()[static_cast<std::size_t>(index)];
   const ControlScene now = this->control_scene();
-  ordered_json scene = this->Scene;
+  const ordered_json before = this->Scene;
+  ordered_json scene = before;
   control.set_colour(scene, now, tinted(control, now, hue, saturation));
   this->set(scene);
+  this->note_others(control, before);
 }
 
 Triple Viewer::chosen_colour() const

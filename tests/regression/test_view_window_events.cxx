@@ -14,7 +14,9 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <iostream>
 #include <mutex>
@@ -151,6 +153,27 @@ private:
   Clock::time_point Told;
   std::atomic<bool> Quitting{ false };
   std::string Failure;
+};
+
+/// A shell script that is found in place of a program of that name.
+class FakeProgram
+{
+public:
+  FakeProgram(const std::string& folder, const std::string& name, const std::string& script)
+    : Path(std::getenv("PATH"))
+  {
+    fs::create_directories(folder);
+    const fs::path file = fs::absolute(folder) / name;
+    std::ofstream(file) << "#!/bin/sh\n" << script << "\n";
+    fs::permissions(file, fs::perms::owner_all);
+    setenv("PATH", (file.parent_path().string() + ":" + this->Path).c_str(), 1);
+  }
+  ~FakeProgram() { setenv("PATH", this->Path.c_str(), 1); }
+  FakeProgram(const FakeProgram&) = delete;
+  FakeProgram& operator=(const FakeProgram&) = delete;
+
+private:
+  std::string Path;
 };
 
 /// Thick matter in the sun: a whole picture of 640² takes many seconds.
@@ -327,6 +350,7 @@ TEST(ViewWindowEvents, EscapeEndsATurntableAndNotTheWindow)
   const std::string folder = BRUME_TEST_OUTPUT "/view-window-turntable";
   fs::remove_all(folder);
   fs::create_directories(folder);
+  const FakeProgram video(folder + "/bin", "ffmpeg", "touch " + folder + "/begun; sleep 1");
   RunningWindow running(quick_scene(), 660, 424, folder);
   const auto pictures = [&]
   {
@@ -347,8 +371,15 @@ TEST(ViewWindowEvents, EscapeEndsATurntableAndNotTheWindow)
         sleep(0.01);
       }
       x.key("Escape");
-      sleep(1.0);
+      for (int i = 0; i < 3000 && !fs::exists(folder + "/begun"); ++i)
+      {
+        sleep(0.01);
+      }
+      x.key("Escape"); // of a hand that has not seen yet that it is over
+      x.key("Escape");
+      sleep(1.5);
     });
+  EXPECT_TRUE(fs::exists(folder + "/begun"));
   EXPECT_GE(pictures(), 2u);
   EXPECT_LT(pictures(), 90u);
 }

@@ -8,6 +8,7 @@
 #include "film_io.h"
 #include "vtkBrumeRayMarchMapper.h"
 
+#include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
 #include "vtkCommand.h"
 #include "vtkLightCollection.h"
@@ -36,9 +37,9 @@ class RecordingWindow
 public:
   RecordingWindow(const ordered_json& scene,
     const std::string& name,
-    MapperKind mapper = MapperKind::RayMarch)
+    const std::vector<MapperKind>& mappers = { MapperKind::RayMarch })
     : Folder(std::string(BRUME_TEST_OUTPUT "/") + name)
-    , TheViewer(scene, patient(mapper))
+    , TheViewer(scene, patient(mappers))
     , Window(this->TheViewer, this->place())
     , TheHand(this->Window.interactor())
   {
@@ -66,10 +67,10 @@ public:
 
 private:
   /// Drafts are whole from the second on, however slow the machine is.
-  static Viewer::Settings patient(MapperKind mapper)
+  static Viewer::Settings patient(const std::vector<MapperKind>& mappers)
   {
     Viewer::Settings settings;
-    settings.mappers = { mapper };
+    settings.mappers = mappers;
     settings.draft_seconds = 30.0;
     return settings;
   }
@@ -94,6 +95,15 @@ ordered_json lit_scene()
     { "extinction", 0.01 },
     { "sun-direction", { 1.0, -1.0, 1.0 } },
     { "tolerance", 0.004 } };
+}
+
+/// Takes the first of the series' three files away as soon as the last one is shown.
+void forget_first_step(vtkObject*, unsigned long, void* viewer, void*)
+{
+  if (static_cast<Viewer*>(viewer)->volume_scene().input.time_step == 2)
+  {
+    fs::remove(BRUME_TEST_OUTPUT "/view-window-series-0.raw");
+  }
 }
 
 /// Three time steps in files of their own.
@@ -171,19 +181,37 @@ TEST(ViewWindowRecords, AnEXRIsNoDraftAndNotOfTheSceneBefore)
 
 TEST(ViewWindowRecords, AnEXRIsNotOfASceneThatWasNotDrawn)
 {
-  ordered_json scene = lit_scene();
-  scene["tolerance"] = 0.05;
-  RecordingWindow window(scene, "view-window-exr-failed", MapperKind::PathTrace);
+  RecordingWindow window(lit_scene(), "view-window-exr-failed");
   Viewer& viewer = window.TheViewer;
   window.TheHand.key("F3");
   ASSERT_EQ(window.files(".exr").size(), 1u) << window.Failed;
-  ASSERT_EQ(viewer.failure(0), "");
   viewer.set_key("sun-direction", nullptr);
-  viewer.set_key("blend-mode", "mip"); // paths draw no projections
+  viewer.set_key("blend-mode", "mip"); // of densities there are no projections
   window.TheHand.key("F3");
-  ASSERT_NE(viewer.failure(0), "") << window.Failed << viewer.scene();
+  ASSERT_NE(viewer.failure(0), "");
   EXPECT_EQ(window.files(".exr").size(), 1u);
   EXPECT_NE(window.Failed, "");
+}
+
+// Another viewport may take minutes, and does not help.
+TEST(ViewWindowRecords, AnEXRThatCannotBeIsRefusedAtOnce)
+{
+  RecordingWindow window({ { "input", ball_file(BRUME_TEST_OUTPUT "/view-window-records.nrrd") },
+                           { "quiet", true },
+                           { "preset", "grey" },
+                           { "blend-mode", "mip" } },
+    "view-window-exr-refused",
+    { MapperKind::PathTrace, MapperKind::Smart });
+  Viewer& viewer = window.TheViewer;
+  while (viewer.failure(0).empty() && viewer.refine([](double) { return true; }))
+  {
+  }
+  ASSERT_NE(viewer.failure(0), ""); // paths draw no projections
+  ASSERT_FALSE(viewer.finished());
+  window.TheHand.key("F3");
+  EXPECT_TRUE(window.files(".exr").empty());
+  EXPECT_NE(window.Failed, "");
+  EXPECT_FALSE(viewer.finished());
 }
 
 TEST(ViewWindowRecords, AScreenshotIsNotOfTheSceneBefore)
@@ -228,6 +256,21 @@ TEST(ViewWindowRecords, ASeriesGoesBackToItsTimeStepAlsoWhereOneIsBroken)
   EXPECT_EQ(window.files(".png").size(), 5u);
   EXPECT_EQ(viewer.volume_scene().input.time_step, 1);
   EXPECT_TRUE(viewer.paused());
+}
+
+TEST(ViewWindowRecords, ASeriesThatCannotGoBackSaysSo)
+{
+  RecordingWindow window(series_scene(), "view-window-no-way-back");
+  Viewer& viewer = window.TheViewer;
+  // Gone once it was recorded.
+  vtkNew<vtkCallbackCommand> shown;
+  shown->SetClientData(&viewer);
+  shown->SetCallback(forget_first_step);
+  window.Window.window()->AddObserver(vtkCommand::EndEvent, shown);
+  window.TheHand.key("F6");
+  EXPECT_EQ(window.files(".png").size(), 3u);
+  EXPECT_NE(window.Failed, "");
+  EXPECT_NE(viewer.volume_scene().input.time_step, 0);
 }
 
 TEST(ViewWindowRecords, APlaneThatIsTakenOutOfTheSceneIsNotShown)

@@ -133,6 +133,43 @@ TEST(Hand, ARightClickTakesBackAllThatADragPutIn)
   EXPECT_GT(turned, 80);
 }
 
+TEST(Hand, ARightClickLeavesWhatSomebodyElseSet)
+{
+  Viewer viewer(dependent_scene(), high_settings());
+  show_page(viewer, ControlPage::Matter);
+  const auto turn = [&](const char* name, double place)
+  { click(viewer, scrolled_to(viewer, HotSpot::Kind::Control, index_of(name), place)); };
+  const auto take_back = [&](const char* name)
+  { click(viewer, scrolled_to(viewer, HotSpot::Kind::Control, index_of(name)), true); };
+  // An attenuation takes a contribution that is larger along, which comes back with it.
+  turn("octave contribution", 0.5);
+  const ordered_json own = viewer.key_of_scene("octave-contribution");
+  EXPECT_NE(own, 0.55);
+  turn("octave attenuation", 0.9);
+  take_back("octave attenuation");
+  EXPECT_EQ(viewer.key_of_scene("octave-contribution"), own);
+  turn("octave attenuation", 0.2);
+  turn("octave attenuation", 0.1);
+  EXPECT_LT(viewer.key_of_scene("octave-contribution").get<double>(), own.get<double>());
+  take_back("octave attenuation");
+  EXPECT_EQ(viewer.key_of_scene("octave-attenuation"), 0.6);
+  EXPECT_EQ(viewer.key_of_scene("octave-contribution"), own);
+  // Meant for itself since.
+  turn("octave attenuation", 0.2);
+  turn("octave contribution", 0.3);
+  const ordered_json meant = viewer.key_of_scene("octave-contribution");
+  take_back("octave attenuation");
+  EXPECT_EQ(viewer.key_of_scene("octave-contribution"), meant);
+  // A sun that the bar did not put in.
+  viewer.set_key("sun-direction", nullptr);
+  viewer.set_key("sun-direction", { 0.0, 0.0, 1.0 });
+  show_page(viewer, ControlPage::Light);
+  turn("sun irradiance", 0.7);
+  take_back("sun irradiance");
+  EXPECT_EQ(viewer.key_of_scene("sun-direction"), ordered_json({ 0.0, 0.0, 1.0 }));
+  EXPECT_TRUE(viewer.key_of_scene("sun-irradiance").is_null());
+}
+
 TEST(Hand, TheWheelScrollsNothingThatIsHeld)
 {
   Viewer::Settings settings = settings_of({ MapperKind::RayMarch });
@@ -227,8 +264,10 @@ TEST(Hand, ASecondButtonDoesNotLeaveTheCameraTurning)
   interactor->Initialize();
   bool takes = false;
   bool held = false;
+  int presses = 0;
   style->Press = [&](int, int, bool, bool)
   {
+    ++presses;
     held = takes;
     return takes;
   };
@@ -262,11 +301,30 @@ TEST(Hand, ASecondButtonDoesNotLeaveTheCameraTurning)
     // The other way round.
     press(right, true);
     EXPECT_TRUE(held);
+    presses = 0;
+    for (const bool taken : { false, true })
+    {
+      press(!right, taken);
+      interactor->MiddleButtonPressEvent();
+      EXPECT_EQ(style->GetState(), VTKIS_NONE);
+      interactor->MiddleButtonReleaseEvent();
+      release(!right);
+      EXPECT_TRUE(held) << "another button let go";
+    }
+    EXPECT_EQ(presses, 0);
     press(!right, false);
     release(right);
-    release(!right);
     EXPECT_FALSE(held);
+    release(!right);
     EXPECT_EQ(style->GetState(), VTKIS_NONE);
+    // A release that nobody told: its button is as good as new.
+    press(right, true);
+    press(right, true);
+    EXPECT_EQ(presses, 2);
+    release(right);
+    press(!right, false);
+    EXPECT_NE(style->GetState(), VTKIS_NONE);
+    release(!right);
   }
 }
 
