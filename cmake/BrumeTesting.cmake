@@ -14,7 +14,7 @@ target_link_libraries(BrumeTestMain PUBLIC GTest::gtest)
 # leaks that are other libraries' own.
 function (_brume_set_test name label)
   set_tests_properties(${name} PROPERTIES
-    LABELS "${label}" SKIP_RETURN_CODE 77 TIMEOUT 300)
+    LABELS "${label}" SKIP_RETURN_CODE 77 TIMEOUT 900) # ten times what the longest take
   if (BRUME_SANITIZE)
     set(suppressions "${PROJECT_SOURCE_DIR}/tests/sanitizers")
     set_tests_properties(${name} PROPERTIES TIMEOUT 1200 ENVIRONMENT

@@ -43,11 +43,10 @@ double seconds_since(std::chrono::steady_clock::time_point start)
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr int edge = 6; // each path takes many times as long
-constexpr double waited = 10.0;
 #else
 constexpr int edge = 16;
-constexpr double waited = 1.0;
 #endif
+constexpr double waited = 10.0; // s; a busy machine's, where it takes a fraction: what is wrong takes for ever
 
 }
 
@@ -131,7 +130,7 @@ TEST(PathLimits, LongPathsAreLeft)
       const PathStatistics s = tracer.render(
         matter.scene, settings, film, [&](double) { return seconds_since(start) < 0.1; });
       EXPECT_FALSE(s.completed);
-      EXPECT_LE(seconds_since(start), 1.0 * waited);
+      EXPECT_LE(seconds_since(start), waited);
       EXPECT_TRUE(all_finite(film));
     }
     settings.seconds = 0.1;
@@ -140,7 +139,7 @@ TEST(PathLimits, LongPathsAreLeft)
     const PathStatistics s = tracer.render(matter.scene, settings, film);
     EXPECT_TRUE(s.completed);
     std::cout << seconds_since(start) << " s, " << s.samples_per_pixel << " paths a pixel\n";
-    EXPECT_LE(seconds_since(start), 1.0 * waited);
+    EXPECT_LE(seconds_since(start), waited);
     EXPECT_TRUE(all_finite(film));
     // What was left is not in the way of going on.
     settings.resume = true;

@@ -188,7 +188,7 @@ run info a.nrrd
 expect_success
 
 case_ "an interrupted series keeps the files that were done, and tells how many"
-interrupted INT 2 generate smoke --size 8 --time 0:1:10000 --output a.nrrd --quiet
+interrupted INT a.0001.nrrd generate smoke --size 8 --time 0:1:10000 --output a.nrrd --quiet
 expect_failure 1
 expect_error '^brume: a\.[0-9]+\.nrrd: interrupted: [1-9][0-9]* of 10000 files are written: '
 expect_file a.0000.nrrd

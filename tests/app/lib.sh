@@ -227,10 +227,10 @@ bad_inputs() {
   expect_no_files
 }
 
-# interrupted SIGNAL SECONDS ARGUMENTS...: runs the program and sends it the signal when it has
-# been at work for so much time. The program must have been at work, not done.
+# interrupted SIGNAL WHEN ARGUMENTS...: runs the program and sends it the signal when it has
+# been at work for so many seconds, or has written the file WHEN. The program must have been at work, not done.
 interrupted() {
-  local signal=$1 seconds=$2 pid
+  local signal=$1 when=$2 pid
   shift 2
   command="brume $* (and $signal)"
   "$BRUME" "$@" > ../out 2> ../err < /dev/null &
@@ -242,7 +242,12 @@ interrupted() {
     [ -n "$mask" ] && (((16#$mask & 0x4000) == 0)) || break
     sleep 0.1
   done
-  sleep "$seconds"
+  if [[ $when =~ ^[0-9.]+$ ]]; then
+    sleep "$when"
+  else
+    tries=0
+    while [ ! -e "$when" ] && [ $((tries++)) -lt 600 ]; do sleep 0.1; done
+  fi
   kill -"$signal" "$pid" 2> /dev/null || fail "the program had ended before the signal"
   # A program that does not hear it would hold up the tests.
   local waited=0

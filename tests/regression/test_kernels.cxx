@@ -651,7 +651,7 @@ TEST(Marcher, StopsWhenProgressSaysSo)
   Marcher marcher;
   Film film(400, 400);
   MarchSettings settings;
-  settings.threads = 2;
+  settings.threads = 1;
   int calls = 0;
   double last = 0.0;
   MarchStatistics statistics = marcher.render(scene, settings, film,
@@ -664,6 +664,12 @@ TEST(Marcher, StopsWhenProgressSaysSo)
     });
   EXPECT_FALSE(statistics.completed);
   EXPECT_EQ(calls, 3);
+  // Of several threads the caller's may come to speak late, but is heard whenever it does.
+  settings.threads = 2;
+  calls = 0;
+  statistics = marcher.render(scene, settings, film, [&](double) { return ++calls < 1; });
+  EXPECT_FALSE(statistics.completed);
+  EXPECT_EQ(calls, 1);
   statistics = marcher.render(scene, settings, film, [&](double f) { last = f; return true; });
   EXPECT_TRUE(statistics.completed);
   EXPECT_EQ(last, 1.0);

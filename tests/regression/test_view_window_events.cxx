@@ -65,17 +65,17 @@ public:
     std::thread hand(
       [&]
       {
+        x_events::Sender x(this->Window.window()->GetGenericWindowId());
         try
         {
-          x_events::Sender x(this->Window.window()->GetGenericWindowId());
           act(x);
-          this->Quitting = true;
-          x.key("q");
         }
         catch (const std::exception& error)
         {
           this->Failure = error.what();
         }
+        this->Quitting = true;
+        x.key("q");
       });
     this->Window.run();
     const bool asked = this->Quitting;

@@ -515,7 +515,9 @@ TEST(ViewWindowSoak, RandomInputLeavesAllInOrder)
   { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   double half = 0.0;
   int actions = 0;
-  for (; passed() < seconds && !testing::Test::HasFailure(); ++actions)
+  // On a slow machine so long that all kinds of input came, the first bad files among them.
+  constexpr int least = 100;
+  for (; (passed() < seconds || actions < least) && !testing::Test::HasFailure(); ++actions)
   {
     soak.act();
     if (actions % 8 == 0)
@@ -523,7 +525,7 @@ TEST(ViewWindowSoak, RandomInputLeavesAllInOrder)
       soak.check();
     }
     ASSERT_EQ(complaints.text(), "") << soak.last_actions();
-    if (half == 0.0 && passed() > 0.5 * seconds)
+    if (half == 0.0 && passed() > 0.5 * seconds && actions >= least / 2)
     {
       half = soak.settled_megabytes();
     }
@@ -533,7 +535,6 @@ TEST(ViewWindowSoak, RandomInputLeavesAllInOrder)
             << " failures told; the heap grew by " << grown << " MB to " << half + grown
             << " MB in the second half\n";
   EXPECT_EQ(complaints.text(), "");
-  EXPECT_GT(actions, 10);
   EXPECT_GT(soak.failures(), 0);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   EXPECT_LT(grown, 10.0); // after 180 s, too; measured were -1 to 2

@@ -5,11 +5,14 @@
 
 #include <X11/Xlib.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <memory>
 #include <string>
+#include <sys/socket.h>
+#include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -130,6 +133,23 @@ TEST(PrivateDisplay, DISABLED_Probe)
   EXPECT_FALSE(opens(name));
 }
 
+/// The process that answers for a display; 0: none does.
+pid_t server_of(const std::string& display)
+{
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  const std::string path = "/tmp/.X11-unix/X" + display.substr(1);
+  std::copy_n(path.c_str(), std::min(path.size() + 1, sizeof address.sun_path), address.sun_path);
+  const int end = socket(AF_UNIX, SOCK_STREAM, 0);
+  ucred server{};
+  socklen_t size = sizeof server;
+  const bool answers =
+    connect(end, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 &&
+    getsockopt(end, SOL_SOCKET, SO_PEERCRED, &server, &size) == 0;
+  close(end);
+  return answers ? server.pid : 0;
+}
+
 TEST(PrivateDisplay, EndsWithAProcessThatIsKilled)
 {
   Variable none("DISPLAY", nullptr);
@@ -151,20 +171,21 @@ TEST(PrivateDisplay, EndsWithAProcessThatIsKilled)
   char name[64] = "";
   ASSERT_GT(read(ends[0], name, sizeof name - 1), 0);
   close(ends[0]);
+  const pid_t server = server_of(name);
   kill(child, SIGKILL);
   waitpid(child, nullptr, 0);
   if (std::string(name) == "none")
   {
     GTEST_SKIP() << "no virtual display can be had here";
   }
-  const std::string lock = "/tmp/.X" + std::string(name + 1) + "-lock";
+  ASSERT_GT(server, 0);
   bool gone = false;
-  for (int i = 0; i < 500 && !gone; ++i)
+  for (int i = 0; i < 3000 && !gone; ++i)
   {
     usleep(10000);
-    gone = access(lock.c_str(), F_OK) != 0;
+    gone = server_of(name) != server; // another one may have taken its number
   }
-  EXPECT_TRUE(gone) << lock << " is still there";
+  EXPECT_TRUE(gone) << name << " is still there";
 }
 
 TEST(PrivateDisplay, SaysWhatToInstall)
