@@ -153,6 +153,13 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
       nearest = other;
     }
   }
+  const std::size_t dashes = std::min(name.find_first_not_of('-'), name.size());
+  if (nearest.empty() && name.size() - dashes >= 3)
+  {
+    const auto longer = std::find_if(names.begin(), names.end(),
+      [&](const std::string& other) { return other.compare(0, name.size(), name) == 0; });
+    nearest = longer == names.end() ? "" : *longer;
+  }
   return nearest;
 }
 

@@ -34,7 +34,8 @@ std::vector<double> split_numbers(const std::string& text);
 /// One or three numbers as three.
 std::array<double, 3> three_of(const std::vector<double>& numbers);
 
-/// Of `names` the one that is written most like `name`; empty where none is near.
+/// Of `names` the one that is written most like `name`, else the first that begins with it (three letters at
+/// least); empty where none is near.
 std::string nearest_name(const std::string& name, const std::vector<std::string>& names);
 
 /// "a, b, c"

@@ -171,6 +171,9 @@ case_ "a misspelt kind and a misspelt option are told those that were meant"
 run generate cumulos --output a.nrrd
 expect_failure 2
 expect_error '^brume: cumulos: there is no such kind, perhaps cumulus: see brume generate --help$'
+run generate head --output a.nrrd
+expect_failure 2
+expect_error 'perhaps head-ct: '
 run generate cumulus --output a.nrrd --octavs 2
 expect_failure 2
 expect_error 'perhaps --octaves: see brume generate cumulus --help$'

@@ -90,6 +90,10 @@ TEST(NearestName, IsTheOneThatWasMeant)
   EXPECT_EQ("albedo", nearest_name("albdeo", names));
   EXPECT_EQ("albedo", nearest_name("albedos", names));
   EXPECT_EQ("sky-radiance", nearest_name("sky_radiance", names));
+  EXPECT_EQ("sky-radiance", nearest_name("sky", names));
+  EXPECT_EQ("", nearest_name("sk", names));
+  EXPECT_EQ("--sun-direction", nearest_name("--sun", { "--sample", "--sun-direction", "--sun-irradiance" }));
+  EXPECT_EQ("", nearest_name("---", { "--sun-direction" }));
   EXPECT_EQ("", nearest_name("temperature", names));
   EXPECT_EQ("", nearest_name("", names));
   EXPECT_EQ("", nearest_name(std::string(100000, 'x'), names));
