@@ -241,7 +241,7 @@ void add_scene_options(CLI::App& command, SceneOptions& o, const std::string& sh
     .add_option("--specular-power", o.shading.specular_power,
       "Of gradient shading, the highlight's exponent: larger is smaller and sharper [the preset's]")
     ->type_name("N")
-    ->check(number("a number of 0 or more", [](double v) { return v >= 0.0; }))
+    ->check(number("a number from 0 to 10000", [](double v) { return v >= 0.0 && v <= 1e4; }))
     ->group(look);
   command
     .add_option("--interpolation", o.interpolation, "Between voxels: linear or nearest [linear]")

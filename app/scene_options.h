@@ -40,7 +40,7 @@ struct ShadingTerms
   std::optional<double> ambient;        ///< in [0, 1]
   std::optional<double> diffuse;        ///< in [0, 1]
   std::optional<double> specular;       ///< in [0, 1]
-  std::optional<double> specular_power; ///< ≥ 0
+  std::optional<double> specular_power; ///< in [0, 1e4]
 
   /// The first option that was given, empty for none.
   std::string given() const;

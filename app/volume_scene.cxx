@@ -362,21 +362,22 @@ void give_property(VolumeScene& scene)
   scene.volume->SetProperty(property);
 }
 
-/// Says that an option of gradient shading has no part in the picture; nothing where it has one.
+/// Says, once, that an option of gradient shading has no part in the picture; nothing where it has one.
 void remark_unused_shading(const VolumeScene& scene)
 {
+  static bool said = false;
   const std::string given = scene.options.shading.given();
-  if (given.empty())
+  const std::string& mode = scene.options.modes.blend_mode;
+  const std::string why = given.empty() || scene.options.quiet ? ""
+    : !scene.volume                     ? "there is no volume"
+    : scene.options.density()           ? "a density is not shaded by its gradient"
+    : mode != "composite" && mode != "isosurface" ? "--blend-mode " + mode + " is not shaded"
+    : !scene.volume->GetProperty()->GetShade() ? "add --shade on"
+                                               : "";
+  if (!why.empty() && !said)
   {
-    return;
-  }
-  if (scene.options.density())
-  {
-    std::cerr << "brume: " << given << ": it changes nothing: a density is not shaded by its gradient\n";
-  }
-  else if (!scene.volume->GetProperty()->GetShade())
-  {
-    std::cerr << "brume: " << given << ": it changes nothing: add --shade on\n";
+    std::cerr << "brume: " << given << ": it changes nothing: " << why << '\n';
+    said = true;
   }
 }
 
@@ -466,6 +467,7 @@ VolumeScene make_volume_scene(const SceneOptions& options)
     scene.lights = make_lights(options.medium);
     scene.fog = make_fog(options.medium, scene.sky);
     scene.camera = make_camera(scene);
+    remark_unused_shading(scene);
     return scene;
   }
   scene.input = open_input_with_bar(options.input, options.choice, options.quiet);
@@ -491,10 +493,7 @@ VolumeScene make_volume_scene(const SceneOptions& options)
   scene.voxel_edge = smallest_edge(scene.input);
   scene.volume = vtkSmartPointer<vtkVolume>::New();
   give_property(scene);
-  if (!options.quiet)
-  {
-    remark_unused_shading(scene);
-  }
+  remark_unused_shading(scene);
   give_light_and_matter(scene);
   InterruptionWatch::check(options.input.c_str());
   scene.camera = make_camera(scene);

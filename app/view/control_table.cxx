@@ -59,7 +59,11 @@ std::string of_classified(S s)
 std::string of_shaded(S s)
 {
   const std::string before = of_classified(s);
-  return !before.empty() ? before : s.shading.on ? "" : "gradient shading is off";
+  const std::string& mode = s.options->modes.blend_mode;
+  return !before.empty()                                ? before
+         : mode != "composite" && mode != "isosurface" ? "projections are not shaded"
+         : s.shading.on                                 ? ""
+                                                        : "gradient shading is off";
 }
 
 std::string of_fog(S s)
@@ -338,6 +342,27 @@ std::vector<Control> scattering_controls()
       of_medium([](const MediumOptions& m) { return brightness_of(m.albedo); }), {}, of_matter },
     [](S s) { return s.options->medium.albedo; }, Channels::OneOrThree, true);
   albedo.first = 1.0;
+  // More contribution than attenuation would make light from nothing.
+  Control attenuation{ "octave attenuation", { "octave-attenuation" }, "", matter, linear, constant(0.0),
+      constant(1.0),
+      [](S s) { return std::optional<double>(s.options->medium.octave_attenuation); },
+      [](J j, S s, double v)
+      {
+        j["octave-attenuation"] = v;
+        if (s.options->medium.octave_contribution > v)
+        {
+          j["octave-contribution"] = v;
+        }
+      },
+      with("second octave", [](const MediumOptions& m) { return m.octaves > 1; }) };
+  attenuation.partners = { "octave-contribution" };
+  Control contribution{ "octave contribution", { "octave-contribution" }, "", matter, linear, constant(0.0),
+      [](S s) { return s.options->medium.octave_attenuation; },
+      [](S s) { return std::optional<double>(s.options->medium.octave_contribution); },
+      [](J j, S, double v) { j["octave-contribution"] = v; },
+      with("second octave",
+        [](const MediumOptions& m) { return m.octaves > 1 && m.octave_attenuation > 0.0; }) };
+  contribution.partners = { "octave-attenuation" };
   return {
     { "extinction", { "extinction" }, "per unit length", matter, logarithmic,
       [](S s) { return 1e-3 / s.size; }, [](S s) { return 1e5 / s.size; },
@@ -366,24 +391,8 @@ std::vector<Control> scattering_controls()
     { "octaves", { "octaves" }, "", matter, ControlScale::Whole, constant(1.0), constant(16.0),
       of_medium([](const MediumOptions& m) { return m.octaves; }),
       [](J j, S, double v) { j["octaves"] = v; }, of_matter, "comma", "period" },
-    { "octave attenuation", { "octave-attenuation" }, "", matter, linear, constant(0.0),
-      constant(1.0),
-      [](S s) { return std::optional<double>(s.options->medium.octave_attenuation); },
-      [](J j, S s, double v)
-      {
-        j["octave-attenuation"] = v;
-        if (s.options->medium.octave_contribution > v)
-        {
-          j["octave-contribution"] = v; // more would make light from nothing
-        }
-      },
-      with("second octave", [](const MediumOptions& m) { return m.octaves > 1; }) },
-    { "octave contribution", { "octave-contribution" }, "", matter, linear, constant(0.0),
-      [](S s) { return s.options->medium.octave_attenuation; },
-      [](S s) { return std::optional<double>(s.options->medium.octave_contribution); },
-      [](J j, S, double v) { j["octave-contribution"] = v; },
-      with("second octave",
-        [](const MediumOptions& m) { return m.octaves > 1 && m.octave_attenuation > 0.0; }) },
+    attenuation,
+    contribution,
     { "octave anisotropy", { "octave-anisotropy" }, "", matter, linear, constant(0.0),
       constant(1.0), [](S s) { return std::optional<double>(s.options->medium.octave_anisotropy); },
       [](J j, S, double v) { j["octave-anisotropy"] = v; },

@@ -78,6 +78,8 @@ struct Control
   std::function<void(nlohmann::ordered_json& scene, const ControlScene&, const Triple&)> set_colour = {};
   ///@}
   double first = 0.25; ///< place on its bar of a colour that the scene does not have yet
+  /// Keys that its own must fit: a right click takes them back, too, where the scene would be refused otherwise.
+  std::vector<std::string> partners = {};
 };
 
 /// All of them, in the order in which they are shown.

@@ -87,9 +87,16 @@ struct CuttingTools::Internals
       -(normal[0] * origin[0] + normal[1] * origin[1] + normal[2] * origin[2]) };
   }
 
-  void told(vtkObject* caller)
+  void told(vtkObject* caller, unsigned long event = vtkCommand::InteractionEvent)
   {
-    if (caller == this->Box.Get() && this->Owner->Boxed)
+    if (event == vtkCommand::StartInteractionEvent)
+    {
+      if (this->Owner->Taken)
+      {
+        this->Owner->Taken();
+      }
+    }
+    else if (caller == this->Box.Get() && this->Owner->Boxed)
     {
       const double* b = this->BoxShape->GetBounds();
       Bounds bounds;
@@ -117,17 +124,19 @@ CuttingTools::CuttingTools()
   Internals& in = *this->Internal;
   in.Owner = this;
   in.Ear->SetClientData(&in);
-  in.Ear->SetCallback([](vtkObject* caller, unsigned long, void* data, void*)
-    { static_cast<Internals*>(data)->told(caller); });
+  in.Ear->SetCallback([](vtkObject* caller, unsigned long event, void* data, void*)
+    { static_cast<Internals*>(data)->told(caller, event); });
   in.Box->SetRepresentation(in.BoxShape);
   in.Box->RotationEnabledOff();
   in.Box->KeyPressActivationOff(); // keys are the window's
+  in.Box->AddObserver(vtkCommand::StartInteractionEvent, in.Ear);
   in.Box->AddObserver(vtkCommand::InteractionEvent, in.Ear);
   in.BoxShape->SetPlaceFactor(1.0);
   in.BoxShape->GetOutlineProperty()->SetColor(0.46, 0.75, 1.0);
   in.BoxShape->GetSelectedOutlineProperty()->SetColor(1.0, 0.77, 0.43);
   in.Plane->SetRepresentation(in.PlaneShape);
   in.Plane->KeyPressActivationOff();
+  in.Plane->AddObserver(vtkCommand::StartInteractionEvent, in.Ear);
   in.Plane->AddObserver(vtkCommand::InteractionEvent, in.Ear);
   in.PlaneShape->SetPlaceFactor(1.0);
   in.PlaneShape->DrawPlaneOff(); // it would hide the picture

@@ -27,6 +27,8 @@ public:
   /// Called whenever the box or the plane was dragged.
   std::function<void(const Bounds&)> Boxed;
   std::function<void(const Plane&)> Planed;
+  /// Called when one of them was taken: releases of the mouse are its own from now on.
+  std::function<void()> Taken;
 
   /// Shows the box, around `now`, or the plane, which cuts at once, at first through the middle, then
   /// where it was; or hides it: what is cut stays.

@@ -48,13 +48,21 @@ bool ViewStyle::TakesRelease(Button button)
   }
   if (this->Holder == button)
   {
+    this->LetGo();
+  }
+  return true;
+}
+
+void ViewStyle::LetGo()
+{
+  if (this->Holder != Button::None)
+  {
     this->Holder = Button::None;
     if (this->Release)
     {
       this->Release();
     }
   }
-  return true;
 }
 
 bool ViewStyle::TakesWheel(int steps)

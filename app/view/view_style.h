@@ -27,6 +27,9 @@ public:
   /// After any event that the camera or one of these took.
   std::function<void()> Done;
 
+  /// Forgets the button that holds something: somebody else hears its release.
+  void LetGo();
+
   void OnLeftButtonDown() override;
   void OnLeftButtonUp() override;
   void OnMiddleButtonDown() override;

@@ -68,6 +68,7 @@ void ViewWindow::Internals::observe()
   this->Style->Done = [this] { this->try_to([&] { this->want_picture(false); }); };
   this->Tools.Boxed = [this](const CuttingTools::Bounds& bounds)
   { this->View.set_key("cropping", nlohmann::ordered_json(bounds)); };
+  this->Tools.Taken = [this] { this->Style->LetGo(); };
   this->Tools.Planed = [this](const CuttingTools::Plane& plane) { this->set_plane(plane); };
 }
 

@@ -85,6 +85,7 @@ void Viewer::open(const ordered_json& scene)
 {
   this->take(scene);
   this->First = scene;
+  this->Others.clear();
   this->FirstCamera = vtkSmartPointer<vtkCamera>::New();
   this->FirstCamera->DeepCopy(this->Volume.camera);
 }
@@ -100,7 +101,6 @@ void Viewer::take(const ordered_json& scene)
   this->Values.reset();
   this->Figures.clear();
   this->Hold = Held::Nothing;
-  this->Others.clear();
   this->BeforeDrag.reset();
   this->Hand = {};
   this->choose_point(-1);
@@ -202,7 +202,7 @@ ordered_json Viewer::scene() const
   return scene;
 }
 
-void Viewer::set(ordered_json scene)
+bool Viewer::set(ordered_json scene)
 {
   try
   {
@@ -218,11 +218,12 @@ void Viewer::set(ordered_json scene)
   catch (const std::exception& failure)
   {
     this->say(failure.what());
-    return;
+    return false;
   }
   this->read_function();
   this->Figures.clear();
   this->give_scene();
+  return true;
 }
 
 void Viewer::reset_camera()

@@ -148,7 +148,7 @@ private:
   struct Action;
   static const std::vector<Action>& actions();
 
-  void set(nlohmann::ordered_json scene);
+  bool set(nlohmann::ordered_json scene); ///< false where it is refused, which is said
   void take(const nlohmann::ordered_json& scene);
   void read_function();
   void open_keeping(const nlohmann::ordered_json& scene);
@@ -166,6 +166,7 @@ private:
   void nudge(const Control& control, double by);
   void restore(const Control& control);
   void note_others(const Control& control, const nlohmann::ordered_json& before);
+  void keep_own(const Control& control); ///< no other control's to undo
   void tint(int index, double hue, double saturation);
   Triple chosen_colour() const;
   void set_chosen_colour(const Triple& colour);

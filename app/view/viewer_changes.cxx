@@ -135,6 +135,11 @@ void Viewer::turn_held(const Control& control, double place)
 
 void Viewer::note_others(const Control& control, const ordered_json& before)
 {
+  if (this->Scene == before)
+  {
+    return;
+  }
+  this->keep_own(control);
   const auto value = [](const ordered_json& scene, const std::string& key)
   { return scene.contains(key) ? scene[key] : ordered_json(); };
   std::set<std::string> keys;
@@ -169,17 +174,32 @@ void Viewer::note_others(const Control& control, const ordered_json& before)
   }
 }
 
+void Viewer::keep_own(const Control& control)
+{
+  for (auto& [other, keys] : this->Others)
+  {
+    for (const std::string& own : control.keys)
+    {
+      keys.erase(own);
+    }
+  }
+}
+
 void Viewer::restore(const Control& control)
 {
   ordered_json scene = this->Scene;
-  for (const std::string& key : control.keys)
+  const auto take_back = [&](const std::vector<std::string>& keys)
   {
-    scene.erase(key);
-    if (this->First.contains(key))
+    for (const std::string& key : keys)
     {
-      scene[key] = this->First[key];
+      scene.erase(key);
+      if (this->First.contains(key))
+      {
+        scene[key] = this->First[key];
+      }
     }
-  }
+  };
+  take_back(control.keys);
   for (const auto& [key, other] : this->Others[&control])
   {
     if (this->key_of_scene(key) == other.after) // else somebody meant it
@@ -191,8 +211,16 @@ void Viewer::restore(const Control& control)
       }
     }
   }
+  if (!this->set(scene))
+  {
+    take_back(control.partners);
+    if (!this->set(scene))
+    {
+      return;
+    }
+  }
   this->Others.erase(&control);
-  this->set(scene);
+  this->keep_own(control);
 }
 
 void Viewer::tint(int index, double hue, double saturation)
@@ -286,7 +314,14 @@ void Viewer::step_preset(int by)
   const int index = found == all.end() ? 0 : static_cast<int>(found - all.begin());
   ordered_json scene = this->Scene;
   scene["preset"] = all[static_cast<std::size_t>((index + by + count) % count)].name;
-  for (const char* key : { "colour", "opacity", "opacity-unit-distance" })
+  // All that a preset has to say.
+  for (const char* key : { "colour",
+         "opacity",
+         "opacity-unit-distance",
+         "ambient",
+         "diffuse",
+         "specular",
+         "specular-power" })
   {
     scene.erase(key);
   }
@@ -324,6 +359,7 @@ void Viewer::switch_effect(const std::string& name)
 
 void Viewer::switch_light()
 {
+  this->Others.clear();
   ordered_json scene = this->Scene;
   if (this->Volume.options.medium.has_medium())
   {

@@ -124,6 +124,7 @@ const std::vector<Viewer::Action>& Viewer::actions()
             scene[key] = v.Scene[key];
           }
         }
+        v.Others.clear();
         v.set(scene);
       } },
   };

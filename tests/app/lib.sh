@@ -144,6 +144,7 @@ bad_calls() {
 --diffuse 1.1
 --specular nan
 --specular-power -1
+--specular-power 1e5
 --blend-mode maximum
 --isovalues a
 --average-range 1

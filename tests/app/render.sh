@@ -119,7 +119,7 @@ draw preset --preset mr-default
 draw same --preset mr-default --ambient 0.25 --diffuse 0.75 --specular 0.15 --specular-power 10
 same preset.png same.png
 blob ../blob.nrrd
-for words in "--shade off" "--extinction 0.1"; do
+for words in "--shade off" "--extinction 0.1" "--shade on --blend-mode mip"; do
   # shellcheck disable=SC2086
   run render ../blob.nrrd --output a.png --resolution 8,8 --specular 1 $words
   expect_status 0

@@ -350,7 +350,7 @@ TEST(ViewWindowEvents, EscapeEndsATurntableAndNotTheWindow)
   const std::string folder = BRUME_TEST_OUTPUT "/view-window-turntable";
   fs::remove_all(folder);
   fs::create_directories(folder);
-  const FakeProgram video(folder + "/bin", "ffmpeg", "touch " + folder + "/begun; sleep 1");
+  const FakeProgram video(folder + "/bin", "ffmpeg", "touch " + folder + "/begun; i=0; while [ ! -e " + folder + "/go ] && [ $((i+=1)) -lt 600 ]; do sleep 0.1; done");
   RunningWindow running(quick_scene(), 660, 424, folder);
   const auto pictures = [&]
   {
@@ -377,6 +377,7 @@ TEST(ViewWindowEvents, EscapeEndsATurntableAndNotTheWindow)
       }
       x.key("Escape"); // of a hand that has not seen yet that it is over
       x.key("Escape");
+      std::ofstream(folder + "/go") << "\n";
       sleep(1.5);
     });
   EXPECT_TRUE(fs::exists(folder + "/begun"));

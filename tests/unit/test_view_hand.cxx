@@ -160,6 +160,34 @@ TEST(Hand, ARightClickLeavesWhatSomebodyElseSet)
   const ordered_json meant = viewer.key_of_scene("octave-contribution");
   take_back("octave attenuation");
   EXPECT_EQ(viewer.key_of_scene("octave-contribution"), meant);
+  // The rest of what was is refused together: then both are as at first.
+  turn("octave attenuation", 0.9);
+  turn("octave contribution", 0.95);
+  take_back("octave attenuation");
+  EXPECT_EQ(viewer.key_of_scene("octave-attenuation"), 0.6);
+  EXPECT_EQ(viewer.key_of_scene("octave-contribution"), 0.55);
+  turn("octave attenuation", 0.2);
+  take_back("octave contribution");
+  EXPECT_EQ(viewer.key_of_scene("octave-attenuation"), 0.6);
+  EXPECT_EQ(viewer.key_of_scene("octave-contribution"), 0.55);
+  // What all controls took back is nobody's to bring again.
+  click(viewer, scrolled_to(viewer, HotSpot::Kind::Control, index_of("fog extinction"), 0.0));
+  EXPECT_TRUE(viewer.key_of_scene("fog-albedo").is_null());
+  viewer.key("BackSpace");
+  viewer.set_key("fog-albedo", nullptr);
+  take_back("fog extinction");
+  EXPECT_TRUE(viewer.key_of_scene("fog-albedo").is_null());
+  viewer.key("BackSpace");
+  // A file that is read again leaves what a bar put in that bar's to take out.
+  viewer.set_key("sun-direction", nullptr);
+  viewer.set_key("sky-radiance", { 0.2, 0.2, 0.2 });
+  show_page(viewer, ControlPage::Light);
+  turn("sun irradiance", 0.7);
+  EXPECT_FALSE(viewer.key_of_scene("sun-direction").is_null());
+  viewer.reload();
+  take_back("sun irradiance");
+  EXPECT_TRUE(viewer.key_of_scene("sun-direction").is_null());
+  show_page(viewer, ControlPage::Matter);
   // A sun that the bar did not put in.
   viewer.set_key("sun-direction", nullptr);
   viewer.set_key("sun-direction", { 0.0, 0.0, 1.0 });
@@ -322,6 +350,13 @@ TEST(Hand, ASecondButtonDoesNotLeaveTheCameraTurning)
     press(right, true);
     EXPECT_EQ(presses, 2);
     release(right);
+    // A tool that takes the mouse hears the release in its place.
+    press(right, true);
+    style->LetGo();
+    EXPECT_FALSE(held);
+    press(!right, true);
+    EXPECT_TRUE(held);
+    release(!right);
     press(!right, false);
     EXPECT_NE(style->GetState(), VTKIS_NONE);
     release(!right);

@@ -401,8 +401,17 @@ TEST(Controls, TermsOfShadingAreThePresetsUntilTheyAreDragged)
     finish(viewer);
     EXPECT_LE(difference(first, viewer.shot(0).picture), 1e-6);
   }
-  viewer.set_key("shade", "off");
-  EXPECT_LT(place_of_spot(viewer, HotSpot::Kind::Control, index_of("specular")).x, 0);
+  viewer.set_key("specular", 1.0);
+  click(viewer, place_of_spot(viewer, HotSpot::Kind::Preset, 1));
+  EXPECT_TRUE(viewer.key_of_scene("specular").is_null()) << "a preset is taken whole";
+  for (const auto& [key, value] :
+    { std::pair("shade", "off"), std::pair("shade", "on"), std::pair("blend-mode", "mip") })
+  {
+    viewer.set_key(key, value);
+    const bool shaded = std::string(value) == "on";
+    EXPECT_EQ(
+      place_of_spot(viewer, HotSpot::Kind::Control, index_of("specular")).x >= 0, shaded);
+  }
 }
 
 TEST(Viewer, ColoursOfTheTransferFunctionAreDragged)
